@@ -41,10 +41,6 @@ std::vector<Output> outputsOf(const Arguments& arguments, const CutResult& cut) 
   return outputs;
 }
 
-bool needsComplex(const Arguments& arguments) {
-  return arguments.coarsen || arguments.merge || arguments.uniteWalls || arguments.refines();
-}
-
 /// Writes a cut-mesh, and its cell complex for those outputs that take one.
 class Writer {
  public:
@@ -101,6 +97,10 @@ void complainOf(const Report& report, int& exitCode) {
 }
 
 }  // namespace
+
+bool needsComplex(const Arguments& arguments) {
+  return arguments.coarsen || arguments.merge || arguments.uniteWalls || arguments.refines();
+}
 
 void checkCutOutputs(const Arguments& arguments) {
   std::vector<NamedFile> files;

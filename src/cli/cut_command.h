@@ -9,6 +9,9 @@ namespace mandoline::cli {
 /// What can be told of the outputs before there is a mesh. Throws UsageError, and FileError for one in a folder that does not exist.
 void checkCutOutputs(const Arguments& arguments);
 
+/// Whether files of cells have those of a cell complex.
+bool needsComplex(const Arguments& arguments);
+
 /// What was asked for.
 struct CutJob {
   const Arguments& arguments;

@@ -12,10 +12,11 @@ std::string arrayXml(const char* type, const char* name, int components) {
 
 }  // namespace
 
-std::string pvtuArrays(const CutMesh& piece, bool hasRegion) {
+std::string pvtuArrays(const CutMesh& piece, PieceCells kind) {
   std::string xml = "<PPoints>\n" + arrayXml(vtkTypeName(double()), "Points", 3) + "</PPoints>\n<PCellData>\n" +
                     arrayXml(vtkTypeName(int32_t()), "grid_cell", 3);
-  if (hasRegion) xml += arrayXml(vtkTypeName(int32_t()), "region", 1);
+  if (kind == PieceCells::complex) xml += arrayXml(vtkTypeName(int32_t()), "level", 1);
+  if (kind != PieceCells::brick) xml += arrayXml(vtkTypeName(int32_t()), "region", 1);
   forEachRegionArray(piece,
                      [&]<class Number>(const char* name, const std::vector<Number>&) { xml += arrayXml(vtkTypeName(Number()), name, 1); });
   return xml + arrayXml(vtkTypeName(double()), "volume", 1) + "</PCellData>\n";

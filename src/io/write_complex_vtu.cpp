@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "io/complex_polygons.h"
 #include "io/groups.h"
+#include "io/pvtu.h"
 #include "io/selection.h"
 #include "io/vtu_file.h"
 #include "mesh/run_call.h"
@@ -95,9 +96,9 @@ class CellWriter : ComplexWriter {
  public:
   using ComplexWriter::ComplexWriter;
 
-  void write(std::span<const Field> fields) {
+  void write(std::span<const Field> fields, FunctionRef<bool(size_t cell)> isOwn) {
     const std::vector<int> components = componentsOf(fields, cells_.cellCount(), "cells");
-    count();
+    count(isOwn);
     requireNames(fields, [&](const auto& visit) { forEachArray(visit); });
     VtuFile(meter_, points_, written_.size(), "grid_cell").write(1, [&](const auto& visit) {
       forEachArray(visit);
@@ -106,14 +107,14 @@ class CellWriter : ComplexWriter {
   }
 
  private:
-  void count() {
+  void count(FunctionRef<bool(size_t cell)> isOwn) {
     meter_.beginStage("count", 0, cells_.cellCount());
     offsets_.push_back(0);
     faceOffsets_.push_back(0);
     for (uint32_t c = 0; c < cells_.cellCount(); ++c) {
       meter_.advance();
       if (c % 4096 == 0) meter_.report();
-      if (!hasCell(c)) continue;
+      if (!hasCell(c) || !isOwn(c)) continue;
       written_.push_back(c);
       isHexahedron_.push_back(findCorners(c));
       uint64_t size = 1;
@@ -304,6 +305,16 @@ class FaceWriter : ComplexWriter {
 };
 
 }  // namespace
+
+void writeVtuPiece(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, FunctionRef<bool(size_t cell)> isOwn,
+                   const WriteOptions& options) {
+  const Selection selection(cutMesh, options);
+  runCall("writing", [&] {
+    Meter meter(sink, options, 2);
+    CellWriter(meter, cutMesh, cells, options).write({}, isOwn);
+  });
+}
+
 }  // namespace detail
 
 void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells, std::span<const Field> fields,
@@ -311,7 +322,7 @@ void writeVtu(const Sink& sink, const CutMesh& cutMesh, const CellComplex& cells
   const detail::Selection selection(cutMesh, options);
   detail::runCall("writing", [&] {
     detail::Meter meter(sink, options, 2);
-    detail::CellWriter(meter, cutMesh, cells, options).write(fields);
+    detail::CellWriter(meter, cutMesh, cells, options).write(fields, [](size_t) { return true; });
   });
 }
 

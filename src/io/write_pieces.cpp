@@ -82,7 +82,7 @@ PieceCounts writePieces(const std::string& path, const PreparedMesh& mesh, const
   std::string arrays;
   const auto write = [&](const CutPiece& piece) {
     folder.add(nameOf(piece), [&](const Sink& sink) { writeVtu(sink, piece, writing); });
-    if (counts.pieces++ == 0) arrays = detail::pvtuArrays(piece.cutMesh, false);
+    if (counts.pieces++ == 0) arrays = detail::pvtuArrays(piece.cutMesh, detail::PieceCells::brick);
     counts.cutCells += piece.cutMesh.cellCount();
     if (options.untouched) counts.untouchedCells += UntouchedCells(piece.cutMesh).count();
   };

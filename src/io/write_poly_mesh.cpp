@@ -159,8 +159,9 @@ void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellCom
     const TriangleGroups* const groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     detail::ComplexPolygons polygons(cutMesh, cells);
     const bool isMerged = !cells.cellMemberOffsets.empty();
+    detail::PolygonSharing alone;
     if (isMerged) {
-      detail::collapseFlatPolygons(cells, polygons);
+      detail::collapseFlatPolygons(cells, polygons, alone);
       detail::dividePolygonsNotSeen(cells, polygons);
     }
     detail::PolyMesh mesh = detail::makePolyMesh(cutMesh, cells, groups, options.simpleCells, [&](size_t cell) {
@@ -169,7 +170,7 @@ void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellCom
     });
     if (isMerged) detail::dropEmptySides(mesh, polygons);
     detail::PolyFiles files{cells, polygons, mesh};
-    if (isMerged) files.moved = detail::movedOffCentroids(cells, polygons);
+    if (isMerged) files.moved = detail::movedOffCentroids(cells, polygons, alone);
     detail::countFaces(files);
     detail::writeFiles(sink, files, options);
   });

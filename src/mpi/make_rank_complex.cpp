@@ -57,7 +57,7 @@ class ComplexMaker {
     result_.cutMesh = std::move(grown.cutMesh);
     comm_.together(kNoun, [&] {
       makeCells(toMeasure.surface);
-      findSeams();
+      result_.seams = seamsOf(result_.cells, result_.cellRanks, comm_.rank());
     });
     numberCorners();
     return std::move(result_);
@@ -79,7 +79,7 @@ class ComplexMaker {
     const UntouchedOrder order = octree_ ? octreeOrder(*octree_, result_.allLayers) : untouchedOrder(whole_.common, result_.allLayers);
     octree_.reset();
     result_.wholeCutCells = whole_.counts.cutCells;
-    result_.wholeFaces = whole_.counts.faces + order.all.faces();
+    result_.wholeFaces = whole_.counts.faces + order.all.faces;
     result_.wholeCells = whole_.counts.cutCells + order.all.cells;
     if (isEmpty()) return;
     const RunOptions oneThread{1, {}};
@@ -101,7 +101,7 @@ class ComplexMaker {
     uint64_t next = 0;
     for (size_t f = cells.cutFaces; f < cells.faceCount(); ++f) {
       const size_t owner = ownerOf(f);
-      if (owner != last) next = whole_.counts.faces + order.before[owner - cells.cutCells].faces();
+      if (owner != last) next = whole_.counts.faces + order.before[owner - cells.cutCells].faces;
       last = owner;
       const int32_t* sides = &cells.faceCells[2 * f];
       if (cells.faceTag[f] == FaceTag::inner && (sides[0] < 0 || sides[1] < 0)) {
@@ -152,21 +152,6 @@ class ComplexMaker {
     }
   }
 
-  void findSeams() {
-    const CellComplex& cells = result_.cells;
-    for (uint32_t f = 0; f < cells.faceCount(); ++f) {
-      const int32_t a = cells.faceCells[2 * size_t(f)], b = cells.faceCells[2 * size_t(f) + 1];
-      if (a < 0 || b < 0) continue;
-      const int32_t ranks[] = {result_.cellRanks[size_t(a)], result_.cellRanks[size_t(b)]};
-      if (ranks[0] == ranks[1] || (ranks[0] != comm_.rank() && ranks[1] != comm_.rank())) continue;
-      const int other = ranks[0] == comm_.rank() ? ranks[1] : ranks[0];
-      std::vector<ComplexSeam>& seams = result_.seams;
-      const auto at = std::find_if(seams.begin(), seams.end(), [&](const ComplexSeam& seam) { return seam.rank >= other; });
-      const auto seam = at != seams.end() && at->rank == other ? at : seams.insert(at, {other, {}});
-      seam->faces.push_back(f);
-    }
-  }
-
   Communicator& comm_;
   const WholeCut& whole_;
   const RankLayers layers_;
@@ -175,6 +160,21 @@ class ComplexMaker {
 };
 
 }  // namespace
+
+std::vector<ComplexSeam> seamsOf(const CellComplex& cells, const std::vector<int32_t>& cellRanks, int rank) {
+  std::vector<ComplexSeam> seams;
+  for (uint32_t f = 0; f < cells.faceCount(); ++f) {
+    const int32_t a = cells.faceCells[2 * size_t(f)], b = cells.faceCells[2 * size_t(f) + 1];
+    if (a < 0 || b < 0) continue;
+    const int32_t ranks[] = {cellRanks[size_t(a)], cellRanks[size_t(b)]};
+    if (ranks[0] == ranks[1] || (ranks[0] != rank && ranks[1] != rank)) continue;
+    const int other = ranks[0] == rank ? ranks[1] : ranks[0];
+    const auto at = std::find_if(seams.begin(), seams.end(), [&](const ComplexSeam& seam) { return seam.rank >= other; });
+    const auto seam = at != seams.end() && at->rank == other ? at : seams.insert(at, {other, {}});
+    seam->faces.push_back(f);
+  }
+  return seams;
+}
 
 RankComplex makeRankComplex(Communicator& comm, const WholeCut& whole, const RankPiece& piece, int ghosts,
                             const CoarsenOptions* coarsening) {

@@ -19,4 +19,7 @@ struct WholeCut {
 RankComplex makeRankComplex(Communicator& comm, const WholeCut& whole, const RankPiece& piece, int ghosts,
                             const CoarsenOptions* coarsening);
 
+/// What cells of a process share with those of others. `cellRanks`: per cell.
+std::vector<ComplexSeam> seamsOf(const CellComplex& cells, const std::vector<int32_t>& cellRanks, int rank);
+
 }  // namespace mandoline::detail

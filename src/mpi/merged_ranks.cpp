@@ -4,8 +4,10 @@
 
 #include "base/sort.h"
 #include "mpi/ghost_layers.h"
+#include "mpi/make_rank_complex.h"
 #include "operators/cell_complex/half_faces.h"
 #include "operators/merge/merge_parts.h"
+#include "operators/require_cut_mesh.h"
 
 namespace mandoline::detail {
 namespace {
@@ -165,7 +167,9 @@ class RankMerger {
     for (size_t i = 1; i < members.size(); ++i) {
       if (members[i][0] == members[i - 1][0]) pairs.push_back({uint32_t(members[i - 1][1]), uint32_t(members[i][1])});
     }
-    merged_ = operators::mergePairs(complex_.cutMesh, complex_.cells, pairs, optionsOf(fraction)).cells;
+    MergedCells merged = operators::mergePairs(complex_.cutMesh, complex_.cells, pairs, optionsOf(fraction));
+    merged_ = std::move(merged.cells);
+    merged_.madeFrom = complex_.cells.madeFrom;
     for (uint32_t c = 0; c < merged_.cellCount(); ++c) {
       const uint32_t member = merged_.membersOfCell(c)[0];
       const Cluster* cluster = clusterOf(member);
@@ -173,6 +177,7 @@ class RankMerger {
       ranks_.push_back(cluster ? rankOf(cluster->layer) : complex_.cellRanks[member]);
       isComplete_.push_back(!cluster || merged_.membersOfCell(c).size() == cluster->members);
     }
+    pockets_ = uint64_t(std::count_if(merged.pockets.begin(), merged.pockets.end(), [&](uint32_t c) { return ranks_[c] == rank_; }));
   }
 
   /// Whether so many rings around own cells are there, counted by layers.
@@ -193,12 +198,13 @@ class RankMerger {
     return true;
   }
 
+  /// Of the process's own cells.
+  uint64_t pockets() const { return pockets_; }
+
   RankComplex take(RankComplex complex) {
     complex.cells = std::move(merged_);
     complex.cellIds = std::move(ids_);
     complex.cellRanks = std::move(ranks_);
-    complex.vertexIds = complex.faceIds = {};
-    complex.seams = {};
     complex.wholeCutCells = idOf(complex.wholeCutCells);
     complex.wholeCells -= absorbed_.size();
     return complex;
@@ -270,18 +276,17 @@ class RankMerger {
   std::vector<uint64_t> ids_;
   std::vector<int32_t> ranks_;
   std::vector<uint8_t> isComplete_;
+  uint64_t pockets_ = 0;
 };
 
-}  // namespace
-
-RankComplex mergedComplex(Communicator& comm, const DistributedCut& cut, const RankPiece& piece, const RankMerging& merging) {
-  const CoarsenOptions& coarsening = merging.coarsening;
-  if (!(merging.fraction > 0)) return cut.cellComplex(piece, merging.rings, coarsening);
+/// Cells with so many rings of ghosts, merged.
+RankComplex merged(Communicator& comm, const DistributedCut& cut, const RankPiece& piece, const RankMerging& merging,
+                   MergedCounts& counts) {
   const int usual = merging.rings + 2;  // few merged cells reach farther
   const RankLayers layers = layersOfAll(comm, piece.layers);
   std::optional<std::vector<Absorbed>> absorbed;
   for (int ghosts = usual;; ++ghosts) {
-    RankComplex complex = cut.cellComplex(piece, ghosts, coarsening);
+    RankComplex complex = cut.cellComplex(piece, ghosts, merging.coarsening);
     if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, merging.fraction);
     std::optional<RankMerger> merger;
     bool hasEnough = false;
@@ -291,9 +296,43 @@ RankComplex mergedComplex(Communicator& comm, const DistributedCut& cut, const R
       hasEnough = merger->hasEnough(merging.rings);
     });
     if (comm.reduce(int(hasEnough), MPI_MIN) == 0) continue;
+    counts = {complex.wholeCells, complex.wholeCells - absorbed->size(), comm.reduce(merger->pockets(), MPI_SUM)};
     comm.together(kMerging, [&] { complex = merger->take(std::move(complex)); });
     return complex;
   }
+}
+
+void requireSize(const Grid& grid) {
+  double size = 0;
+  for (const std::vector<double>& planes : grid.planes) size = std::max(size, planes.back() - planes.front());
+  operators::requireLength(size);
+}
+
+/// Of faces that are joined of some before.
+void finishFaces(RankComplex& complex, int rank) {
+  const std::vector<uint64_t> before = std::move(complex.faceIds);
+  complex.faceIds.clear();
+  for (size_t f = 0; f < complex.cells.faceCount(); ++f) complex.faceIds.push_back(before[complex.cells.membersOfFace(f)[0]]);
+  complex.seams = seamsOf(complex.cells, complex.cellRanks, rank);
+}
+
+}  // namespace
+
+RankComplex mergedComplex(Communicator& comm, const DistributedCut& cut, const RankPiece& piece, const RankMerging& merging,
+                          MergedCounts* counts) {
+  MergedCounts found;
+  const bool isMerged = merging.fraction > 0;
+  comm.together(kMerging, [&] {
+    if (isMerged || merging.walls) requireSize(cut.common().mesh.grid);
+  });
+  RankComplex complex = isMerged ? merged(comm, cut, piece, merging, found) : cut.cellComplex(piece, merging.rings, merging.coarsening);
+  comm.together(kMerging, [&] {
+    if (!isMerged && !merging.walls) return;
+    if (merging.walls) complex.cells = operators::uniteWallsOf(complex.cutMesh, complex.cells, *merging.walls);
+    finishFaces(complex, comm.rank());
+  });
+  if (counts) *counts = found;
+  return complex;
 }
 
 }  // namespace mandoline::detail

@@ -35,7 +35,7 @@ class Orderer {
       box.end[d] = std::min(corner[d] + size, n_[d]);
       if (box.low[d] >= box.end[d]) return;
     }
-    if (box.end[2] <= layers_[0] || box.low[2] >= layers_[1]) return result_.all.add(countIn(box));
+    if (box.end[2] <= layers_[0] || box.low[2] >= layers_[1]) return addAllIn(box);
     if (size == 1) return visitCell(box);
     for (int64_t child = 0; child < 8; ++child) {
       std::array<int64_t, 3> at = corner;
@@ -52,38 +52,32 @@ class Orderer {
     result_.cells.cellLevel.push_back(0);
     result_.cells.cellRegion.push_back(uint32_t(region));
     result_.before.push_back(result_.all);
-    result_.all.add(countIn(box));
+    addAllIn(box);
   }
 
-  UntouchedCounts countIn(const Box& box) const {
-    UntouchedCounts counts;
+  void addAllIn(const Box& box) {
     for (int64_t k = box.low[2]; k < box.end[2]; ++k) {
       for (int64_t j = box.low[1]; j < box.end[1]; ++j) {
         const size_t row = size_t(k * n_[1] + j);
         for (uint32_t r = firstRun(row, box.low[0]); r < cutMesh_.rowRunOffsets[row + 1] && cutMesh_.runBegin[r] < box.end[0]; ++r) {
           const int64_t begin = std::max<int64_t>(cutMesh_.runBegin[r], box.low[0]),
                         end = std::min<int64_t>(cutMesh_.runEnd[r], box.end[0]);
-          addPiece({{begin, j, k}, {end, j + 1, k + 1}}, counts);
+          addPiece({{begin, j, k}, {end, j + 1, k + 1}});
         }
       }
     }
-    return counts;
   }
 
   /// Counts a piece of a run. Of two neighbours the lower one comes first.
-  void addPiece(const Box& piece, UntouchedCounts& counts) const {
+  void addPiece(const Box& piece) {
     const auto [i, j, k] = piece.low;
-    const int64_t end = piece.end[0], count = end - i;
-    counts.cells += uint64_t(count);
-    const uint64_t inner = untouchedIn(i + 1, end + 1, j, k) + untouchedIn(i, end, j + 1, k) + untouchedIn(i, end, j, k + 1);
-    counts.inner += inner;
-    counts.made += inner;
-    counts.sides[0] += i == 0;
-    counts.sides[1] += end == n_[0];
-    counts.sides[2] += j == 0 ? uint64_t(count) : 0;
-    counts.sides[3] += j + 1 == n_[1] ? uint64_t(count) : 0;
-    counts.sides[4] += k == 0 ? uint64_t(count) : 0;
-    counts.sides[5] += k + 1 == n_[2] ? uint64_t(count) : 0;
+    const int64_t end = piece.end[0];
+    const uint64_t count = uint64_t(end - i);
+    UntouchedCounts& all = result_.all;
+    all.cells += count;
+    all.faces += untouchedIn(i + 1, end + 1, j, k) + untouchedIn(i, end, j + 1, k) + untouchedIn(i, end, j, k + 1);
+    const uint64_t sides = uint64_t(j == 0) + uint64_t(j + 1 == n_[1]) + uint64_t(k == 0) + uint64_t(k + 1 == n_[2]);
+    all.faces += uint64_t(i == 0) + uint64_t(end == n_[0]) + count * sides;
   }
 
   /// How many of the grid cells (begin .. end - 1, j, k) are untouched.
@@ -112,13 +106,7 @@ class Orderer {
 /// Counts the faces of octree cells, each of which is a whole side of a cell.
 class OctreeOrderer {
  public:
-  explicit OctreeOrderer(const OctreeCells& whole) : whole_(whole), index_(whole), first_(whole.cellCount()) {
-    for (size_t c = 0; c < whole.cellCount(); ++c) {
-      forSides(c, [&](size_t, int64_t neighbour) {
-        if (neighbour >= 0) ++first_[std::min(c, size_t(neighbour))];
-      });
-    }
-  }
+  explicit OctreeOrderer(const OctreeCells& whole) : whole_(whole), index_(whole) {}
 
   UntouchedOrder run(const std::array<int64_t, 2>& layers) {
     result_.cells.gridCells = whole_.gridCells;
@@ -134,14 +122,6 @@ class OctreeOrderer {
  private:
   static constexpr size_t kLower = 4;  // the side along z
 
-  /// Calls f(side, neighbour) for the sides of a cell that are faces, with -1 for a side of the grid.
-  template <class F>
-  void forSides(size_t c, const F& f) const {
-    for (size_t side = 0; side < 6; ++side) {
-      if (const std::optional<int64_t> neighbour = index_.acrossSide(c, side / 2, int(side % 2))) f(side, *neighbour);
-    }
-  }
-
   void take(size_t c) {
     const std::array<int32_t, 3> corner = whole_.corner(c);
     OctreeCells& cells = result_.cells;
@@ -154,36 +134,19 @@ class OctreeOrderer {
 
   void add(size_t c, bool isHere) {
     ++result_.all.cells;
-    result_.all.inner += first_[c];
-    forSides(c, [&](size_t side, int64_t neighbour) {
-      if (neighbour < 0)
-        ++result_.all.sides[side];
-      else
-        ++result_.all.made;
+    for (size_t side = 0; side < 6; ++side) {
+      if (!index_.acrossSide(c, side / 2, int(side % 2))) continue;
+      ++result_.all.faces;
       if (isHere && side == kLower) result_.hasLower.back() = 1;
-    });
+    }
   }
 
   const OctreeCells& whole_;
   const operators::OctreeIndex index_;
-  std::vector<uint8_t> first_;  // per cell: faces to cells after it, at most four on each side
   UntouchedOrder result_;
 };
 
 }  // namespace
-
-uint64_t UntouchedCounts::faces() const {
-  uint64_t sum = made;
-  for (const uint64_t count : sides) sum += count;
-  return sum;
-}
-
-void UntouchedCounts::add(const UntouchedCounts& other) {
-  cells += other.cells;
-  inner += other.inner;
-  made += other.made;
-  for (size_t s = 0; s < sides.size(); ++s) sides[s] += other.sides[s];
-}
 
 UntouchedOrder untouchedOrder(const CutMesh& cutMesh, const std::array<int64_t, 2>& layers) { return Orderer(cutMesh, layers).run(); }
 

@@ -9,12 +9,7 @@ namespace mandoline::detail {
 /// Of untouched grid cells or octree cells that follow each other in Morton order.
 struct UntouchedCounts {
   uint64_t cells = 0;
-  uint64_t inner = 0;               ///< faces between two of them, each counted for the one that comes first
-  uint64_t made = 0;                ///< the same, each counted for the smaller one, whose side it is, or of two alike for the first
-  std::array<uint64_t, 6> sides{};  ///< faces in a side of the grid, as in FaceTag
-
-  uint64_t faces() const;
-  void add(const UntouchedCounts& other);
+  uint64_t faces = 0;  ///< one between two of them counts for the smaller one, whose side it is, or of two alike for the first
 };
 
 struct UntouchedOrder {

@@ -79,15 +79,25 @@ std::vector<double> numbersOf(const std::string& report, const std::string& name
 }
 
 using Names = std::vector<std::string>;
-using Cells = std::vector<std::tuple<int32_t, int32_t, int32_t, int32_t, double>>;  ///< grid cell, region, volume
+/// Grid cell, region, volume, level, how many vertices, and the sums of their coordinates.
+using Cells = std::vector<std::tuple<int32_t, int32_t, int32_t, int32_t, double, int32_t, int64_t, std::array<double, 3>>>;
 
 Cells cellsOf(const std::string& text) {
   const vtu_files::Vtu vtu(text);
   const auto gridCells = vtu.array<int32_t>("grid_cell"), regions = vtu.array<int32_t>("region");
-  const auto volumes = vtu.array<double>("volume");
+  const auto volumes = vtu.array<double>("volume"), points = vtu.array<double>("Points");
+  const auto vertices = vtu.array<int64_t>("connectivity"), ends = vtu.array<int64_t>("offsets");
+  const auto levels = vtu.has("level") ? vtu.array<int32_t>("level") : std::vector<int32_t>(volumes.size());
   Cells cells;
-  for (size_t c = 0; c < volumes.size(); ++c)
-    cells.emplace_back(gridCells[3 * c], gridCells[3 * c + 1], gridCells[3 * c + 2], regions[c], volumes[c]);
+  for (size_t c = 0; c < volumes.size(); ++c) {
+    const int64_t begin = c > 0 ? ends[c - 1] : 0;
+    std::array<double, 3> sums{};
+    for (int64_t i = begin; i < ends[c]; ++i) {
+      for (size_t d = 0; d < 3; ++d) sums[d] += points[3 * size_t(vertices[size_t(i)]) + d];
+    }
+    cells.emplace_back(gridCells[3 * c], gridCells[3 * c + 1], gridCells[3 * c + 2], regions[c], volumes[c], levels[c], ends[c] - begin,
+                       sums);
+  }
   return cells;
 }
 
@@ -136,13 +146,18 @@ TEST_CASE("The pieces of several processes have the cells of one, some of them n
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 2));
   for (const std::string cells : {"9", "2"}) {
-    for (const bool onlyCut : {false, true}) {
+    const Names kinds[] = {{},
+                           {"--only", "cut"},
+                           {"--coarsen", "2,0"},
+                           {"--coarsen", "2,0", "--merge", "0.2", "--only", "region=0"},
+                           {"--unite-walls", "30", "--only", "cut"}};
+    for (const Names& options : kinds) {
       Names words = {"cut", mesh, "--cells", cells, "-o", folder.path("one.vtu")};
-      if (onlyCut) words.insert(words.end(), {"--only", "cut"});
+      words.insert(words.end(), options.begin(), options.end());
       REQUIRE(run(folder, words).exitCode == 0);
       Cells one = cellsOf(folder.read("one.vtu")), several;
       for (const int processes : {1, 3, 5}) {  // of two layers most get nothing
-        CAPTURE(cells, onlyCut, processes);
+        CAPTURE(cells, options, processes);
         words[5] = folder.path("some.pvtu");
         const Outcome outcome = runRanks(folder, processes, words);
         CAPTURE(outcome.err);
@@ -313,7 +328,7 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
       {{"info", mesh}, "several processes cut", 2},
       {{"cut", mesh, "--stream", "-o", folder.path("a")}, "--stream: one process alone streams", 2},
       {{"cut", mesh, "--snap-tolerance", "0.1"}, "--snap-tolerance: several processes do not snap", 2},
-      {{"cut", mesh, "-o", pvtu, "--merge", "0.2"}, ".pvtu files do not go with --merge", 2},
+      {{"cut", mesh, "-o", pvtu, "--faces"}, ".pvtu files do not go with --faces", 2},
       {{"cut", mesh, "-o", pvtu, "--only", "inside"}, ".pvtu files do not go with --only inside", 2},
       {{"cut", mesh, "-o", pvtu, "--only", "region=9"}, "there is no region 9", 2},
       {{"cut", mesh, "-o", folder.path("none/a.pvtu")}, "there is no folder", 2},
@@ -322,8 +337,8 @@ TEST_CASE("What several processes can't do is said once", "[mpi]") {
       {{"cut", mesh, "-o", folder.path("a.mcm/"), "--inside-threshold", "0.5"}, "pieces do not go with --inside-threshold", 2},
       {{"cut", mesh, "-o", folder.path("a.mcm/"), "--coarsen", "1"}, "--coarsen: only .vtu and .json files", 2},
       {{"cut", mesh, "-o", mesh + "/a.mcm/"}, mesh + "/a.mcm/: can't be written: Not a directory", 2},
-      {{"cut", mesh, "-o", pvtu, "--coarsen", "1"}, ".pvtu files do not go with --coarsen", 2},
-      {{"cut", mesh, "-o", polyMesh, "--merge", "0.2"}, "polyMeshes of several processes do not go with --merge", 2},
+      {{"cut", mesh, "-o", pvtu, "--refine", "1"}, ".pvtu files do not go with --refine", 2},
+      {{"cut", mesh, "-o", polyMesh, "--refine", "1"}, "polyMeshes of several processes do not go with --refine", 2},
       {{"cut", mesh, "-o", polyMesh, "--only", "cut"}, "polyMeshes of several processes do not go with --only", 2},
       {{"cut", mesh, "--box", "5,5,5,6,6,6", "--cells", "2", "-o", pvtu, "--only", "cut"}, "--only selects nothing", 2},
       {{"cut", folder.path("none.ply")}, "rank 0: " + folder.path("none.ply"), 2},
@@ -483,7 +498,11 @@ TEST_CASE("Decomposed cases are the polyMesh of one process, by their addressing
                                                  {"5", {"--margin", "0"}},
                                                  {"8", {"--margin", "0"}},
                                                  {"6", {"--margin", "1", "--coarsen", "2"}},
-                                                 {"8", {"--margin", "0.8", "--coarsen", "9,0"}}};
+                                                 {"8", {"--margin", "0.8", "--coarsen", "9,0"}},
+                                                 {"5", {"--margin", "0", "--merge", "0.2"}},
+                                                 {"6", {"--margin", "1", "--coarsen", "2", "--merge", "0.2", "--unite-walls", "30"}},
+                                                 {"7", {"--margin", "0.1", "--merge", "0.5", "--coarsen", "9,0", "--simple-cells"}},
+                                                 {"8", {"--margin", "0", "--unite-walls", "60"}}};
   for (const auto& [cells, options] : grids) {
     Names words = {"cut", file, "--cells", cells, "-o", folder.path(one)};
     words.insert(words.end(), options.begin(), options.end());

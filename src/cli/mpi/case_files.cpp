@@ -5,8 +5,11 @@
 
 #include "base/sort.h"
 #include "cli/arguments.h"
-#include "cli/mpi/face_numbers.h"
+#include "cli/mpi/case_numbers.h"
+#include "cli/mpi/rank_polygons.h"
+#include "io/flat_polygons.h"
 #include "io/groups.h"
+#include "io/seen_polygons.h"
 
 namespace mandoline::cli {
 namespace {
@@ -29,39 +32,33 @@ constexpr const char* kNames[] = {"points",
                                   "boundaryProcAddressing"};
 
 /// The process's own cells, without those that others have beside them.
-PolyMesh ownMesh(const RankComplex& complex, const TriangleGroups* groups, bool simpleCells, int rank) {
-  PolyMesh mesh =
-      detail::makePolyMesh(complex.cutMesh, complex.cells, groups, simpleCells, [&](size_t c) { return complex.cellRanks[c] == rank; });
+PolyMesh ownMesh(const RankComplex& complex, const detail::ComplexPolygons& polygons, const WriteOptions& options, int rank) {
+  const bool isMerged = !complex.cells.cellMemberOffsets.empty();
+  const TriangleGroups* const groups = detail::checkedGroups(options.groups, complex.cutMesh.triangleCount);
+  PolyMesh mesh = detail::makePolyMesh(complex.cutMesh, complex.cells, groups, options.simpleCells, [&](size_t c) {
+    return complex.cellRanks[c] == rank && !(isMerged && detail::isEnclosedByWalls(complex.cells, polygons, c));
+  });
   std::erase_if(mesh.patches,
                 [&](const PolyPatch& patch) { return &patch - mesh.patches.data() == ptrdiff_t(FaceTag::inner) && patch.name == "inner"; });
-  std::vector<detail::PolyZone> zones;  // the same for all processes
-  for (uint32_t region = 0; region < complex.cutMesh.regionCount; ++region) zones.push_back({region, {}});
-  for (detail::PolyZone& zone : mesh.zones) zones[zone.region].cells = std::move(zone.cells);
-  mesh.zones = std::move(zones);
   return mesh;
 }
 
 /// What makes the whole mesh of the pieces.
-std::vector<detail::PolyList> addressing(const RankComplex& complex, const detail::PolyFiles& files, const std::vector<uint64_t>& numbers) {
+std::vector<detail::PolyList> addressing(const RankComplex& complex, const detail::PolyFiles& files, const CaseNumbers& numbers) {
   const PolyMesh& mesh = files.mesh;
-  std::vector<int64_t> cells, faces, points, patches;
-  for (size_t c = 0; c < mesh.cellNumbers.size(); ++c) {
-    if (mesh.cellNumbers[c] != PolySide::kLeftOut) cells.push_back(int64_t(complex.cellIds[c]));
-  }
+  const std::vector<int64_t> cells(numbers.cells.begin(), numbers.cells.end()), points(numbers.points.begin(), numbers.points.end());
+  std::vector<int64_t> faces, patches;
   // Numbers count from 1, and are negative where a face's normal is the opposite of that in the whole.
   mesh.forEach([&](const PolySide& side) {
     files.polygons.forEach(side.halfFace / 2, [&](std::span<const uint32_t>) {
-      const int64_t number = int64_t(numbers[faces.size()]) + 1;
+      const int64_t number = int64_t(numbers.faces[faces.size()]) + 1;
       faces.push_back(side.isTurned ? -number : number);
     });
   });
-  for (size_t v = 0; v < mesh.pointNumbers.size(); ++v) {
-    if (mesh.pointNumbers[v] != PolyMesh::kUnused) points.push_back(int64_t(complex.vertexIds[v]));
-  }
   for (size_t p = 0; p < mesh.patches.size(); ++p) patches.push_back(p + complex.seams.size() < mesh.patches.size() ? int64_t(p) : -1);
-  return {{"cellProcAddressing", std::move(cells)},
+  return {{"cellProcAddressing", cells},
           {"faceProcAddressing", std::move(faces)},
-          {"pointProcAddressing", std::move(points)},
+          {"pointProcAddressing", points},
           {"boundaryProcAddressing", std::move(patches)}};
 }
 
@@ -134,20 +131,43 @@ void CaseFiles::addSeams(const RankComplex& complex, PolyMesh& mesh) const {
   }
 }
 
-void CaseFiles::write(const DistributedCut& cut, const RankComplex& complex, const CoarsenOptions& coarsening,
-                      const WriteOptions& options) {
-  const CutMesh& common = cut.common().mesh;
+/// Each process has those that any has.
+void CaseFiles::addZones(const RankComplex& complex, PolyMesh& mesh) const {
+  std::vector<uint8_t> isThere;
+  ranks_.together([&] {
+    isThere.assign(complex.cutMesh.regionCount, 0);
+    for (const detail::PolyZone& zone : mesh.zones) isThere[zone.region] = 1;
+  });
+  ranks_.comm().uniteFlags(isThere);
+  ranks_.together([&] {
+    std::vector<detail::PolyZone> zones(isThere.size());
+    for (uint32_t region = 0; region < zones.size(); ++region) zones[region].region = region;
+    for (detail::PolyZone& zone : mesh.zones) zones[zone.region].cells = std::move(zone.cells);
+    std::erase_if(zones, [&](const detail::PolyZone& zone) { return isThere[zone.region] == 0; });
+    mesh.zones = std::move(zones);
+  });
+}
+
+void CaseFiles::write(RankComplex complex, const WriteOptions& options) {
+  const bool isMerged = !complex.cells.cellMemberOffsets.empty();
+  const bool areMerged = ranks_.comm().reduce(int(isMerged), MPI_MAX) != 0;  // some may have no cells
   std::optional<detail::ComplexPolygons> polygons;
   PolyMesh mesh;
   std::optional<detail::PolyFiles> files;
+  ranks_.together([&] { polygons.emplace(complex.cutMesh, complex.cells); });
+  RankPolygons sharing(ranks_.comm(), complex);
+  if (areMerged) detail::collapseFlatPolygons(complex.cells, *polygons, sharing);
   ranks_.together([&] {
-    polygons.emplace(complex.cutMesh, complex.cells);
-    mesh = ownMesh(complex, detail::checkedGroups(options.groups, common.triangleCount), options.simpleCells, ranks_.rank());
+    if (areMerged) detail::dividePolygonsNotSeen(complex.cells, *polygons);
+    mesh = ownMesh(complex, *polygons, options, ranks_.rank());
     addSeams(complex, mesh);
+    if (areMerged) detail::dropEmptySides(mesh, *polygons);
     files.emplace(detail::PolyFiles{complex.cells, *polygons, mesh});
     detail::countFaces(*files);
   });
-  const std::vector<uint64_t> numbers = faceNumbers(ranks_.comm(), common, {complex, coarsening, *polygons}, mesh);
+  if (areMerged) files->moved = detail::movedOffCentroids(complex.cells, *polygons, sharing);
+  addZones(complex, mesh);
+  const CaseNumbers numbers = caseNumbers(ranks_.comm(), complex, *files);
   ranks_.together([&] {
     files->lists = addressing(complex, *files, numbers);
     detail::writeFolder(folderOf(ranks_.rank()), [&](const FolderSink& sink) { detail::writeFiles(sink, *files, options); });

@@ -19,14 +19,18 @@ class CaseFiles {
   ~CaseFiles();
   CaseFiles(const CaseFiles&) = delete;
 
-  /// Writes the cells of this process, which cut.cellComplex() made with `coarsening`, or for a maxLevel of 0 without; regions and
-  /// untouched of the options are not read. Collective. Throws Stopped, and RankError.
-  void write(const DistributedCut& cut, const RankComplex& complex, const CoarsenOptions& coarsening, const WriteOptions& options);
+  /// Rings of ghosts that what is written of own cells follows from.
+  static constexpr int kGhosts = 1;
+
+  /// Writes the cells of this process, of mergedComplex(); regions and untouched of the options are not read. Collective. Throws Stopped,
+  /// and RankError.
+  void write(RankComplex complex, const WriteOptions& options);
 
  private:
   std::string folderOf(int rank) const;
   void refuseOthers() const;
   void addSeams(const RankComplex& complex, detail::PolyMesh& mesh) const;
+  void addZones(const RankComplex& complex, detail::PolyMesh& mesh) const;
 
   const DeferInterrupts defer_;  // which would leave files
   Ranks& ranks_;

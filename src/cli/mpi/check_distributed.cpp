@@ -15,14 +15,11 @@
 namespace mandoline::cli {
 namespace {
 
-/// Refuses what pieces do not go with. A case has small cells as they are, which an option may ask for.
+/// Refuses what pieces do not go with.
 void checkPieces(const Arguments& arguments, const std::string& output) {
   const OnlyArguments& only = arguments.only;
   const bool isCase = isPolyMesh(output);
-  const std::pair<bool, const char*> others[] = {{arguments.coarsen && !isCase, "--coarsen"},
-                                                 {arguments.merge.value_or(0) > 0 || (arguments.merge && !isCase), "--merge"},
-                                                 {arguments.refines(), "--refine"},
-                                                 {arguments.uniteWalls.has_value(), "--unite-walls"},
+  const std::pair<bool, const char*> others[] = {{arguments.refines(), "--refine"},
                                                  {arguments.faces, "--faces"},
                                                  {arguments.insideThreshold.has_value(), "--inside-threshold"},
                                                  {only.inside || only.outside, "--only inside and outside"},
@@ -67,7 +64,10 @@ void checkDistributed(const Arguments& arguments) {
       checkCase(output);
   }
   Arguments others = arguments;
-  if (std::erase_if(others.outputs, isPvtu) > 0) others.simpleCells = false;  // the .pvtu file has them
+  if (std::erase_if(others.outputs, isPvtu) > 0) {  // the .pvtu file has what these ask for
+    others.simpleCells = false;
+    others.coarsen.reset(), others.merge.reset(), others.uniteWalls.reset();
+  }
   std::erase_if(others.outputs, isMcmFolder);
   checkCutOutputs(others);
 }
@@ -81,8 +81,7 @@ Arguments ofWhole(const Arguments& arguments) {
 }
 
 bool needsWhole(const Arguments& arguments) {
-  return !ofWhole(arguments).outputs.empty() || arguments.validate || mergeFraction(arguments) > 0 || arguments.refines() ||
-         needsInside(arguments);
+  return !ofWhole(arguments).outputs.empty() || arguments.validate || arguments.refines() || needsInside(arguments);
 }
 
 }  // namespace mandoline::cli

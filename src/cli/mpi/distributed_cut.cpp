@@ -13,6 +13,7 @@
 #include "mandoline/distributed.h"
 #include "mesh/inspect_arrays.h"
 #include "mesh/read/load_file.h"
+#include "mpi/merged_ranks.h"
 #include "mpi/sliced_mesh.h"
 
 #ifdef MANDOLINE_HAVE_PETSC
@@ -183,12 +184,16 @@ class Run {
   }
 
   void writePiece(const std::string& output, const RankPiece& piece) {
+    if (arguments_.uniteWalls) sendGroups();
     WriteOptions options;
     ranks_.together([&] {
       options = writeOptions(arguments_, cut_->common());
       static_cast<RunOptions&>(options) = writingOptions();
     });
-    writePvtu(ranks_, output, *cut_, piece, options);
+    if (needsComplex(arguments_))
+      writePvtu(ranks_, output, cellsOf(piece, 1), options);
+    else
+      writePvtu(ranks_, output, *cut_, piece, options);
   }
 
   void writeCase(const std::string& output, const RankPiece& piece) {
@@ -197,8 +202,17 @@ class Run {
     static_cast<RunOptions&>(options) = writingOptions();
     options.simpleCells = arguments_.simpleCells;
     options.groups = &input_.groups;
-    const CoarsenOptions coarsening = coarsenOptions(arguments_, {arguments_.threads, {}});
-    CaseFiles(ranks_, output).write(*cut_, cut_->cellComplex(piece, 1, coarsening), coarsening, options);
+    CaseFiles(ranks_, output).write(cellsOf(piece, CaseFiles::kGhosts), options);
+  }
+
+  /// As makeCells() of the whole, with so many rings of ghosts. Takes the groups of triangles.
+  RankComplex cellsOf(const RankPiece& piece, int rings) {
+    const RunOptions run{arguments_.threads, {}};
+    const CoarsenOptions coarsening = coarsenOptions(arguments_, run);
+    detail::RankMerging merging{mergeFraction(arguments_), coarsening, rings};
+    const WallOptions walls{run, arguments_.uniteWalls.value_or(0), input_.groups.triangleGroup};
+    if (arguments_.uniteWalls) merging.walls = &walls;
+    return detail::mergedComplex(ranks_.comm(), *cut_, piece, merging, &merged_);
   }
 
   /// The first process sends the groups of triangles to the others.
@@ -279,6 +293,7 @@ class Run {
       Report report = reportOf(arguments_, {input_, info_, {}}, grid_, result);
       report.counts = cut_->counts();
       report.regionVolumes = std::move(volumes);
+      if (mergeFraction(arguments_) > 0) report.merge = MergeCounts{merged_.before, merged_.after, merged_.pockets};
       report.ranks = reports;
       deliver(
           arguments_, [&] { return reportText(report); }, [&] { return reportJson(report); });
@@ -298,6 +313,7 @@ class Run {
   MeshInfo info_;
   AskedGrid grid_;
   int failed_ = 0;
+  detail::MergedCounts merged_;
   std::optional<DistributedCut> cut_;
 };
 

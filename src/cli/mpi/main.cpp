@@ -32,12 +32,12 @@ options. Each process reads its share of the mesh and cuts some layers of the gr
                          which joins them; with --only also cut and region=K
   -o CASE/constant/polyMesh
                          a decomposed case of OpenFOAM: CASE/processor0/constant/polyMesh
-                         and so on, with small cells as they are
+                         and so on, of all cells. These and .pvtu files take --coarsen,
+                         --merge and --unite-walls, but not --refine
   -o FOLDER.mcm/         a .mcm file of each process, FOLDER.mcm/piece_0.mcm and so on;
                          readCutMesh() takes each of them, or the folder for the whole.
                          Other files are written by the first process, which then has to
-                         hold the whole cut, as it has to for --validate, --merge and
-                         --only inside
+                         hold the whole cut, as it has to for --validate and --only inside
   --threads T            of each process (default: the cores of its machine, shared out)
   --progress             show how far the first process has come, on standard error
 

@@ -21,21 +21,14 @@ bool hasCells(const CutMesh& cutMesh, const WriteOptions& options) {
   return any(cutMesh.cellRegion) || (options.untouched && any(cutMesh.runRegion));
 }
 
-}  // namespace
-
-bool isPvtu(const std::string& path) { return path.ends_with(kExtension); }
-
-void writePvtu(Ranks& ranks, const std::string& path, const DistributedCut& cut, const RankPiece& piece, const WriteOptions& options) {
+/// The file of this process, if it is written, and in the first one that which joins those of all.
+void writeJoined(Ranks& ranks, const std::string& path, const std::string& arrays, bool isWritten,
+                 const std::function<void(const Sink&)>& write) {
   const auto nameOf = [stem = path.substr(0, path.size() - kExtension.size())](int rank) {
     return stem + '_' + std::to_string(rank) + ".vtu";
   };
-  const bool isWritten = hasCells(piece.cutMesh, options);
-  std::vector<double> cellVolume;
-  ranks.together([&] {
-    if (isWritten) cellVolume = cut.measures(piece, options).cellVolume;
-  });
   RankFiles pieces(ranks, nameOf);
-  pieces.write(isWritten, [&](const Sink& sink) { detail::writeVtuPiece(sink, piece.cutMesh, std::move(cellVolume), options); });
+  pieces.write(isWritten, write);
   const std::vector<uint64_t> written = ranks.comm().gatherAll(isWritten);
   ranks.inFirst([&] {
     std::vector<std::string> files;
@@ -43,9 +36,35 @@ void writePvtu(Ranks& ranks, const std::string& path, const DistributedCut& cut,
       if (written[rank]) files.push_back(fs::path(nameOf(int(rank))).filename().string());
     }
     if (files.empty()) throw UsageError("--only selects nothing");
-    writeOutput(path, [&](const Sink& sink) { sink(detail::pvtuText(detail::pvtuArrays(piece.cutMesh, true), files)); });
+    writeOutput(path, [&](const Sink& sink) { sink(detail::pvtuText(arrays, files)); });
   });
   pieces.complete();
+}
+
+}  // namespace
+
+bool isPvtu(const std::string& path) { return path.ends_with(kExtension); }
+
+void writePvtu(Ranks& ranks, const std::string& path, const DistributedCut& cut, const RankPiece& piece, const WriteOptions& options) {
+  const bool isWritten = hasCells(piece.cutMesh, options);
+  std::vector<double> cellVolume;
+  ranks.together([&] {
+    if (isWritten) cellVolume = cut.measures(piece, options).cellVolume;
+  });
+  writeJoined(ranks, path, detail::pvtuArrays(piece.cutMesh, detail::PieceCells::cut), isWritten,
+              [&](const Sink& sink) { detail::writeVtuPiece(sink, piece.cutMesh, std::move(cellVolume), options); });
+}
+
+void writePvtu(Ranks& ranks, const std::string& path, const RankComplex& complex, const WriteOptions& options) {
+  const CellComplex& cells = complex.cells;
+  const auto isOwn = [&](size_t c) { return complex.cellRanks[c] == ranks.rank(); };
+  bool isWritten = false;
+  for (size_t c = 0; c < cells.cellCount(); ++c) {
+    const bool isSelected = options.regions.empty() || options.regions[cells.cellRegion[c]] != 0;
+    isWritten |= isOwn(c) && isSelected && (options.untouched || c < cells.cutCells);
+  }
+  writeJoined(ranks, path, detail::pvtuArrays(complex.cutMesh, detail::PieceCells::complex), isWritten,
+              [&](const Sink& sink) { detail::writeVtuPiece(sink, complex.cutMesh, cells, isOwn, options); });
 }
 
 }  // namespace mandoline::cli

@@ -1,4 +1,4 @@
-// mergeSmallCells() in two steps, for cells that several processes have a part of each.
+// mergeSmallCells() in two steps and uniteWalls(), for cells that several processes have a part of each.
 #pragma once
 
 #include <array>
@@ -16,5 +16,8 @@ MANDOLINE_SHARED std::vector<uint32_t> mergedWith(const CutMesh& cutMesh, const 
 /// Merges pairs of cells, whatever they are like. Arguments are not checked; the result has no fingerprints.
 MANDOLINE_SHARED MergedCells mergePairs(const CutMesh& cutMesh, const CellComplex& cells, std::span<const std::array<uint32_t, 2>> pairs,
                                         const MergeOptions& options);
+
+/// As uniteWalls(). Arguments are not checked; the result has no fingerprint of its own.
+MANDOLINE_SHARED CellComplex uniteWallsOf(const CutMesh& cutMesh, const CellComplex& cells, const WallOptions& options);
 
 }  // namespace mandoline::operators

@@ -7,6 +7,7 @@
 #include "operators/cell_complex/half_faces.h"
 #include "operators/degrees.h"
 #include "operators/merge/face_joiner.h"
+#include "operators/merge/merge_parts.h"
 #include "operators/require_cut_mesh.h"
 
 namespace mandoline {
@@ -132,14 +133,18 @@ CellComplex uniteWalls(const CutMesh& cutMesh, const CellComplex& cells, const W
   if (!options.triangleGroup.empty() && options.triangleGroup.size() != cutMesh.triangleCount)
     operators::refuse("There must be a group for each of the " + std::to_string(cutMesh.triangleCount) + " triangles.");
   return detail::runCall("uniting of walls", [&] {
-    detail::Monitor monitor(options, 1);
-    CellComplex united = WallUniter(cutMesh, cells, options).run(monitor);
+    CellComplex united = operators::uniteWallsOf(cutMesh, cells, options);
     detail::Fingerprinter fingerprinter("united walls", cells.fingerprint);
     fingerprinter.add(options.angle);
     fingerprinter.add(options.triangleGroup);
     united.fingerprint = fingerprinter.get();
     return united;
   });
+}
+
+CellComplex operators::uniteWallsOf(const CutMesh& cutMesh, const CellComplex& cells, const WallOptions& options) {
+  detail::Monitor monitor(options, 1);
+  return WallUniter(cutMesh, cells, options).run(monitor);
 }
 
 }  // namespace mandoline
