@@ -4,10 +4,8 @@
 #include <numbers>
 
 #include "operators/measure/vector.h"
-#include "operators/require_cut_mesh.h"
 #include "physics/dual_edges.h"
 #include "physics/face_box.h"
-#include "physics/wind.h"
 
 namespace mandoline::physics {
 namespace {
@@ -35,32 +33,52 @@ size_t rowOf(double x, double low, double edge, size_t count) {
   return row >= 1 ? size_t(std::min(row, double(count - 1))) : 0;
 }
 
+/// That around those of all processes.
+void uniteBoxes(const FarFieldShare& share, detail::Box& box) {
+  if (!share.least) return;
+  std::vector<double> bounds;
+  for (size_t d = 0; d < 3; ++d) bounds.insert(bounds.end(), {box.low[d], -box.high[d]});
+  share.least(bounds);
+  for (size_t d = 0; d < 3; ++d) box.low[d] = bounds[2 * d], box.high[d] = -bounds[2 * d + 1];
+}
+
+bool isEmpty(const detail::Box& box) { return !(box.low[0] <= box.high[0]); }
+
 }  // namespace
 
-FarField::FarField(const CellComplex& cells, const Boundary& boundary) : cells_(cells), boundarySize_(boundary.halfFaces.size()) {
-  const CellComponents parts = partsBetweenSlits(cells);
-  std::vector<uint32_t> walls;
+std::optional<uint32_t> wallOnSide(const CellComplex& cells, const Boundary& boundary, const FarFieldShare& share) {
   std::vector<char> isOnSide(cells.vertexCount());
+  for (const uint32_t h : boundary.halfFaces) {
+    if (cells.faceTag[h / 2] < FaceTag::inner) forVerticesOf(cells, h / 2, [&](uint32_t v) { isOnSide[v] = 1; });
+  }
+  for (const uint32_t h : boundary.halfFaces) {
+    if (cells.faceTag[h / 2] < FaceTag::inner || !share.owns(size_t(cells.faceCells[h]))) continue;
+    bool reaches = false;
+    forVerticesOf(cells, h / 2, [&](uint32_t v) { reaches |= isOnSide[v] != 0; });
+    if (reaches) return h / 2;
+  }
+  return std::nullopt;
+}
+
+FarField::FarField(const CellComplex& cells, const Boundary& boundary, const FarFieldShare& share)
+    : cells_(cells), share_(share), boundarySize_(boundary.halfFaces.size()) {
+  std::vector<uint32_t> walls;
   detail::Box box = detail::Box::empty(), wallBox = box;
   for (size_t b = 0; b < boundarySize_; ++b) {
     const uint32_t h = boundary.halfFaces[b], f = h / 2;
-    if (cells.faceTag[f] >= FaceTag::inner) {
-      walls.push_back(h);
+    const auto cell = size_t(cells.faceCells[h]);
+    const bool isSide = cells.faceTag[f] < FaceTag::inner, isOwn = share.owns(cell);
+    if (isOwn) forVerticesOf(cells, f, [&](uint32_t v) { include(isSide ? box : wallBox, pointAt(cells.positions, v)); });
+    if (!isSide) {
+      if (isOwn) walls.push_back(h);
       continue;
     }
     Point normal = pointAt(cells.faceNormal, f);
     for (double& x : normal) x = h % 2 == 0 ? x : -x;
-    sides_.push_back({uint32_t(b), f, parts.cellComponent[size_t(cells.faceCells[h])], normal});
-    forVerticesOf(cells, f, [&](uint32_t v) { isOnSide[v] = 1, include(box, pointAt(cells.positions, v)); });
+    sides_.push_back({uint32_t(b), f, share.parts.cellComponent[cell], isOwn, normal});
   }
-  for (const uint32_t h : walls) {
-    forVerticesOf(cells, h / 2, [&](uint32_t v) {
-      include(wallBox, pointAt(cells.positions, v));
-      if (!isOnSide[v]) return;
-      operators::refuse("With the far field no wall may reach a side of the box, but face " + std::to_string(h / 2) + " does.", h / 2);
-    });
-  }
-  if (walls.empty() || sides_.empty()) return;
+  for (detail::Box* of : {&box, &wallBox}) uniteBoxes(share, *of);
+  if (isEmpty(box) || isEmpty(wallBox)) return;
   placeBlocks(box, wallBox);
   placeDipoles(walls);
 }
@@ -94,6 +112,8 @@ void FarField::placeDipoles(const std::vector<uint32_t>& walls) {
     area[block] += cells_.faceArea[h / 2];
     for (size_t d = 0; d < 3; ++d) sums[3 * block + d] += cells_.faceArea[h / 2] * (cells_.faceCentroid[3 * (h / 2) + d] - middle_[d]);
   }
+  overAll(share_.sum, area);
+  overAll(share_.sum, sums);
   std::vector<int32_t> dipole(blocks, -1);
   for (size_t block = 0; block < blocks; ++block) {
     if (!(area[block] > 0)) continue;
@@ -105,10 +125,17 @@ void FarField::placeDipoles(const std::vector<uint32_t>& walls) {
 
 std::vector<double> FarField::sideWeights() const {
   std::vector<double> weights(boundarySize_);
-  double sum = 0;
-  for (const Side& side : sides_) sum += cells_.faceArea[side.face];
-  for (const Side& side : sides_) weights[side.at] = sum > 0 ? cells_.faceArea[side.face] / sum : 0;
+  double own = 0;
+  for (const Side& side : sides_) own += side.isOwn ? cells_.faceArea[side.face] : 0;
+  const double all = sum(own);
+  for (const Side& side : sides_) weights[side.at] = side.isOwn && all > 0 ? cells_.faceArea[side.face] / all : 0;
   return weights;
+}
+
+double FarField::sum(double number) const {
+  std::vector<double> one{number};
+  overAll(share_.sum, one);
+  return one[0];
 }
 
 /// 3 per dipole, over 4 pi and the cube of `size_`. The integral of phi * normal over the walls of a block is that of phi * normal - x *
@@ -117,6 +144,8 @@ std::vector<double> FarField::moments(const Flow& flow) const {
   std::vector<double> sums(centres_.size());
   for (size_t f = 0; f < cells_.faceCount(); ++f) {
     if (cells_.faceTag[f] >= FaceTag::inner && !isInner(cells_, f)) continue;
+    const size_t counts = 2 * f + (cells_.faceCells[2 * f] < 0 ? 1 : 0);  // a face counts in the process of its first cell
+    if (cells_.faceCells[counts] < 0 || !share_.owns(size_t(cells_.faceCells[counts]))) continue;
     const Point normal = pointAt(cells_.faceNormal, f), at = pointAt(cells_.faceCentroid, f);
     std::array<int32_t, 2> dipoles = {-1, -1};
     double phi = 0, cellCount = 0;
@@ -137,6 +166,7 @@ std::vector<double> FarField::moments(const Flow& flow) const {
       if (dipoles[1] >= 0) sums[3 * size_t(dipoles[1]) + d] -= part;
     }
   }
+  overAll(share_.sum, sums);
   return sums;
 }
 
@@ -181,13 +211,31 @@ std::vector<double> FarField::outflowOfDipoles(const Flow& flow) const {
 void FarField::takeExcess(std::vector<double>& outflow) const {
   constexpr int kPasses = 2;  // the second takes what the first has rounded
   for (int pass = 0; pass < kPasses; ++pass) {
-    std::vector<double> excess(cells_.cellCount()), area(cells_.cellCount());  // there are no more parts than cells
+    std::vector<double> excess(share_.parts.count), area(excess.size());
     for (const Side& side : sides_) {
+      if (!side.isOwn) continue;
       excess[side.part] += cells_.faceArea[side.face] * outflow[side.at];
       area[side.part] += cells_.faceArea[side.face];
     }
+    overAll(share_.sum, excess);
+    overAll(share_.sum, area);
     for (const Side& side : sides_) outflow[side.at] -= area[side.part] > 0 ? excess[side.part] / area[side.part] : 0;
   }
+}
+
+FarFieldPasses::FarFieldPasses(const FarField& farField, std::vector<double> ofWind)
+    : farField_(farField),
+      ofWind_(std::move(ofWind)),
+      ofDipoles_(ofWind_.size()),
+      secants_(farField.sideWeights(), [&farField](double number) { return farField.sum(number); }) {}
+
+FarFieldPasses::Next FarFieldPasses::add(const Flow& flow, std::vector<double>& outflow) {
+  const double missing = secants_.add(ofDipoles_, farField_.outflowOfDipoles(flow));
+  if (pass_ > 0 && missing <= kEnough) return Next::done;
+  if (++pass_ == kMaxPasses) return Next::limit;
+  ofDipoles_ = secants_.next();
+  for (size_t b = 0; b < ofWind_.size(); ++b) outflow[b] = ofWind_[b] + ofDipoles_[b];
+  return Next::pass;
 }
 
 }  // namespace mandoline::physics

@@ -14,7 +14,6 @@
 #include "physics/flow_of_phi.h"
 #include "physics/node_loops.h"
 #include "physics/poisson_setup.h"
-#include "physics/secants.h"
 #include "physics/wind.h"
 
 namespace mandoline {
@@ -37,14 +36,6 @@ bool scale(Flow& flow, double length, const detail::Team& team) {
     isFinite &= physics::areFinite(*values, team);
   }
   return isFinite;
-}
-
-void setOnBoundary(const Boundary& boundary, Flow& flow) {
-  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
-    const uint32_t h = boundary.halfFaces[b];
-    const double value = boundary.value[b];
-    if (value != 0) flow.faceVelocity[h / 2] = h % 2 == 0 ? value : -value;
-  }
 }
 
 /// What follows from phi and the velocities on faces of a wind of length 1; then all for one of the given length.
@@ -73,8 +64,13 @@ class FlowSolver {
     PoissonProblem problem;
     detail::Monitor monitor(options_, kStages);
     problem.boundary = physics::windBoundary(cells_, unitOf(wind), flow.throttled, monitor.threads());
+    physics::FarFieldShare share;
     std::optional<physics::FarField> farField;
-    if (options_.farField) farField.emplace(cells_, problem.boundary);
+    if (options_.farField) {
+      requireWallsOffSides(problem.boundary);
+      share.parts = physics::partsBetweenSlits(cells_);
+      farField.emplace(cells_, problem.boundary, share);
+    }
     monitor.beginStage("levels", 0);
     physics::PoissonSetup setup(cells_, problem, monitor.threads());
     const SolveOptions options = solveOptions(monitor);
@@ -99,25 +95,25 @@ class FlowSolver {
     return options;
   }
 
-  /// What flows through the sides follows from dipoles, and these follow from the flow.
+  void requireWallsOffSides(const Boundary& boundary) const {
+    if (const auto face = physics::wallOnSide(cells_, boundary, {}))
+      operators::refuse("With the far field no wall may reach a side of the box, but face " + std::to_string(*face) + " does.", *face);
+  }
+
   void solveFarField(const physics::FarField& farField, physics::PoissonSetup& setup, SolveOptions options, Boundary& boundary,
                      Flow& flow) const {
-    const std::vector<double> ofWind = boundary.value;
+    using Next = physics::FarFieldPasses::Next;
     const auto progress = options.progress;
-    physics::Secants secants(farField.sideWeights());
-    std::vector<double> ofDipoles(ofWind.size());
-    for (int pass = 0;; ++pass) {
+    physics::FarFieldPasses passes(farField, boundary.value);
+    Next next = Next::pass;
+    for (int pass = 0; next == Next::pass; ++pass) {
       if (progress) options.progress = [&](const Progress& p) { return progress(partOfPasses(p, pass)); };
       options.tolerance = pass == 0 ? std::max(options_.tolerance, kLoose) : options_.tolerance;
       solve(setup, options, boundary, flow);
       if (flow.status != SolveStatus::converged) return;
-      const double missing = secants.add(ofDipoles, farField.outflowOfDipoles(flow));
-      if (pass > 0 && missing <= kEnough) return;
-      if (pass + 1 == kMaxPasses) break;
-      ofDipoles = secants.next();
-      for (size_t b = 0; b < ofWind.size(); ++b) boundary.value[b] = ofWind[b] + ofDipoles[b];
+      next = passes.add(flow, boundary.value);
     }
-    flow.status = SolveStatus::iterationLimit;
+    if (next == Next::limit) flow.status = SolveStatus::iterationLimit;
   }
 
   /// Each pass has half of what is left.
@@ -136,18 +132,34 @@ class FlowSolver {
     if (!flow.residuals.empty()) flow.residuals.pop_back();
     flow.residuals.insert(flow.residuals.end(), solution.residuals.begin(), solution.residuals.end());
     flow.faceVelocity = std::move(solution.faceDerivative);
-    setOnBoundary(boundary, flow);
+    physics::setOnBoundary(boundary, flow.faceVelocity);
   }
 
-  static constexpr double kLoose = 1e-3;   ///< the tolerance of the first pass, which only dipoles follow from
-  static constexpr double kEnough = 1e-4;  ///< so much of the wind may be missing on the sides, in the quadratic mean
-  static constexpr int kMaxPasses = 20;
+  static constexpr double kLoose = 1e-3;  ///< the tolerance of the first pass, which only dipoles follow from
 
   const CellComplex& cells_;
   const FlowOptions& options_;
 };
 
+/// What of the corrections is on sides of the box passes through these.
+void addOnSides(const CellComplex& cells, std::span<const physics::FaceCorrection> corrections, double length, Boundary& boundary) {
+  for (const auto& [face, velocity] : corrections) {
+    if (cells.faceTag[face] >= FaceTag::inner || length == 0) continue;
+    const uint32_t h = 2 * face + (cells.faceCells[2 * size_t(face)] < 0 ? 1 : 0);
+    const auto at = std::lower_bound(boundary.halfFaces.begin(), boundary.halfFaces.end(), h) - boundary.halfFaces.begin();
+    boundary.value[size_t(at)] += (h % 2 == 0 ? velocity : -velocity) / length;
+  }
+}
+
 }  // namespace
+
+void physics::setOnBoundary(const Boundary& boundary, std::vector<double>& faceVelocity) {
+  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+    const uint32_t h = boundary.halfFaces[b];
+    const double value = boundary.value[b];
+    if (value != 0) faceVelocity[h / 2] = h % 2 == 0 ? value : -value;
+  }
+}
 
 Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& wind, std::vector<double> phi,
                         std::span<const FaceCorrection> corrections, const RunOptions& options) {
@@ -161,14 +173,16 @@ Flow physics::flowOfPhi(const CellComplex& cells, const std::array<double, 3>& w
     PoissonProblem problem;
     detail::Monitor monitor(options, 1);
     problem.boundary = windBoundary(cells, unitOf(wind), flow.throttled, monitor.threads());
+    addOnSides(cells, corrections, length, problem.boundary);
     const DualEdges dual = dualEdges(cells, problem.dualPoints, {}, monitor.threads());
     const std::vector<BoundaryTerm> terms = boundaryTerms(cells, problem);
     const detail::Csr<uint32_t> edges = cellEdges(cells, dual, monitor.threads());
     flow.faceVelocity = Differentiator({cells, dual, edges, problem}, terms, monitor.threads()).plain(flow.phi, monitor.threads());
     flow.faceVelocity.resize(cells.faceCount());
-    for (const FaceCorrection& correction : corrections)
-      flow.faceVelocity[correction.face] += length > 0 ? correction.velocity / length : 0;
-    setOnBoundary(problem.boundary, flow);
+    for (const auto& [face, velocity] : corrections) {
+      if (cells.faceTag[face] >= FaceTag::inner) flow.faceVelocity[face] += length > 0 ? velocity / length : 0;
+    }
+    setOnBoundary(problem.boundary, flow.faceVelocity);
     monitor.beginStage("velocities", 0);
     complete({cells, dual, edges, problem}, nullptr, length, monitor, flow);
     return flow;

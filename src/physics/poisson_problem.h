@@ -43,8 +43,8 @@ std::vector<double> heldTerms(const CellComplex& cells, const Boundary& boundary
 /// The sum of both, per cell: `held`: heldTerms(), `mass`: massTerms().
 std::vector<double> addedTerms(std::vector<double> held, const std::vector<double>& mass);
 /// Its right side, for sources and values of the boundary as in PoissonData.
-std::vector<double> rightSide(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms,
-                              const PoissonData& data);
+MANDOLINE_SHARED std::vector<double> rightSide(const CellComplex& cells, const Boundary& boundary, const std::vector<BoundaryTerm>& terms,
+                                               const PoissonData& data);
 /// Its null space. `held`: heldComponents().
 CsrMatrix nullSpaceOf(const CellComponents& components, const std::vector<char>& held);
 

@@ -44,7 +44,7 @@ void Secants::addDirection(std::vector<double> missing, std::vector<double> foun
 double Secants::product(const std::vector<double>& a, const std::vector<double>& b) const {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += weights_[i] * a[i] * b[i];
-  return sum;
+  return sum_ ? sum_(sum) : sum;
 }
 
 }  // namespace mandoline::physics
