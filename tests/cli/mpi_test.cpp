@@ -637,8 +637,8 @@ TEST_CASE("What a flow of several processes has not is said once", "[mpi]") {
   const std::string mesh = meshFile(folder, shapes::cube(0, 2));
   const Names flow = {"flow", mesh, "--wind", "1,0,0", "--cells", "6", "-o", folder.path("a.vtu")};
   const std::pair<Names, std::string> cases[] = {
-      {{"--unite-walls", "30"}, "--unite-walls: a flow of several processes has none"},
-      {{"--far-field"}, "--far-field: a flow of several processes has none"},
+      {{"--refine", "1"}, "--refine: a flow of several processes has none"},
+      {{"--steps", "2"}, "--steps: a flow of several processes has none"},
   };
   for (const auto& [options, message] : cases) {
     Names words = flow;

@@ -2,9 +2,10 @@
 //
 //   mandoline-mpi-flows CELLS EVERY
 //
-// as mandoline-mpi-pieces, of cells as they are and merged, and of octree cells. Both solve the same system; they differ by what their
-// solvers leave of the residual. Corrections end where little is missing, and what is then missing depends on how well systems are solved
-// before: so these are compared with those of one process that solves as well, and less strictly with solveFlow().
+// as mandoline-mpi-pieces, of cells as they are and merged, of octree cells, with walls united, and in the far field. Both solve the same
+// system; they differ by what their solvers leave of the residual. Corrections, and passes of the far field, end where little is missing,
+// and what is then missing depends on how well systems are solved before: so these are compared with those of one process that solves as
+// well, and less strictly with solveFlow().
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,11 +27,16 @@ constexpr double kMostOff = 1e-9;     // of phi, of the largest
 constexpr double kMostSpilt = 1e-12;  // of what flows into a cell, of the largest flow through a face
 
 constexpr double kMostMissing = 1e-4;  // as kMostOff, of solutions that are corrected until so little is missing
+constexpr double kMostFar = 1e-3;      // likewise in the far field, where passes end when so little of the wind is missing on the sides
 
 struct Kind {
   double fraction;  // of cells that are merged
   int corrections;
-  int levels = 0;  // of octree cells
+  int levels = 0;    // of octree cells
+  double walls = 0;  // the angle at which they unite, or 0
+  bool farField = false;
+
+  cli::RankFlowOptions options() const { return {corrections, farField, nullptr}; }
 
   CoarsenOptions coarsening() const {
     CoarsenOptions options;
@@ -69,15 +75,24 @@ void requireCells(const RankComplex& mine, int rank, const CellComplex& cells) {
   }
 }
 
-RankComplex mergedComplex(detail::Communicator& comm, const DistributedCut& cut, const Kind& kind) {
-  return detail::mergedComplex(comm, cut, cut.piece(), {kind.fraction, kind.coarsening(), cli::kFlowGhosts});
+RankComplex complexFor(detail::Communicator& comm, const DistributedCut& cut, const Kind& kind) {
+  const WallOptions walls{{1, {}}, kind.walls, {}};
+  return detail::mergedComplex(comm, cut, cut.piece(),
+                               {kind.fraction, kind.coarsening(), cli::kFlowGhosts, kind.walls > 0 ? &walls : nullptr});
+}
+
+CellComplex wholeComplex(const Mesh& mesh, const CutMesh& cutMesh, const Kind& kind) {
+  MergeOptions merging;
+  merging.fraction = kind.fraction;
+  CellComplex cells = mergeSmallCells(cutMesh, cellComplex(mesh, cutMesh, coarsen(cutMesh, kind.coarsening())), merging).cells;
+  return kind.walls > 0 ? uniteWalls(cutMesh, cells, {{1, {}}, kind.walls, {}}) : std::move(cells);
 }
 
 /// That of one process, per cell of the whole.
 Flow flowOfOne(const PreparedMesh& prepared, const Grid& grid, const std::array<double, 3>& wind, const Kind& kind) {
   detail::Communicator self(MPI_COMM_SELF, nullptr);
   const DistributedCut alone(MPI_COMM_SELF, prepared, grid, {1, {}});
-  return cli::solveRankFlow(self, mergedComplex(self, alone, kind), wind, kind.corrections).flow;
+  return cli::solveRankFlow(self, complexFor(self, alone, kind), wind, kind.options()).flow;
 }
 
 double largestOf(const std::vector<double>& values) {
@@ -90,20 +105,18 @@ Found compare(detail::Communicator& comm, const Mesh& mesh, const Grid& grid, co
   const PreparedMesh prepared = prepare(mesh, {{1, {}}}).mesh;
   const std::array<double, 3> wind{2, 0.5, 0.25};
   const DistributedCut distributed(MPI_COMM_WORLD, prepared, grid, {1, {}});
-  const RankComplex mine = mergedComplex(comm, distributed, kind);
+  const RankComplex mine = complexFor(comm, distributed, kind);
   Found found;
-  found.flow = cli::solveRankFlow(comm, mine, wind, kind.corrections);
+  found.flow = cli::solveRankFlow(comm, mine, wind, kind.options());
   const CutResult whole = cut(prepared, grid, {{1, {}}});
-  MergeOptions merging;
-  merging.fraction = kind.fraction;
-  const CellComplex cells =
-      mergeSmallCells(whole.mesh, cellComplex(mesh, whole.mesh, coarsen(whole.mesh, kind.coarsening())), merging).cells;
+  const CellComplex cells = wholeComplex(mesh, whole.mesh, kind);
   comm.together("comparison", [&] { requireCells(mine, comm.rank(), cells); });
   FlowOptions options;
   options.corrections = kind.corrections;
+  options.farField = kind.farField;
   options.tolerance = 1e-13;
   const Flow expected = solveFlow(cells, wind, options);
-  const Flow ofOne = kind.corrections > 0 ? flowOfOne(prepared, grid, wind, kind) : expected;
+  const Flow ofOne = kind.corrections > 0 || kind.farField ? flowOfOne(prepared, grid, wind, kind) : expected;
   if (expected.status != SolveStatus::converged) throw std::runtime_error("one process does not solve it");
   if (expected.throttled != found.flow.flow.throttled) throw std::runtime_error("other components are throttled");
   const double largest = largestOf(expected.phi);
@@ -126,14 +139,15 @@ bool check(detail::Communicator& comm, const std::string& name, const Mesh& mesh
     const Found found = compare(comm, mesh, grid, kind);
     const Flow& flow = found.flow.flow;
     const bool isGood = flow.status == SolveStatus::converged && found.off <= kMostOff && found.flow.imbalance <= kMostSpilt &&
-                        found.missing <= kMostMissing && (found.corrections > 0) == (kind.corrections > 0);
+                        found.missing <= (kind.farField ? kMostFar : kMostMissing) && (found.corrections > 0) == (kind.corrections > 0);
     if (comm.rank() == 0)
       std::printf(
-          "%-28s %s%s, %d levels, %s: phi off by %.1e, of solveFlow() by %.1e, velocities by %.1e, imbalance %.1e, residual %.1e, %d "
+          "%-28s %s%s%s%s, %d levels, %s: phi off by %.1e, of solveFlow() by %.1e, velocities by %.1e, imbalance %.1e, residual %.1e, %d "
           "iterations\n",
           std::filesystem::path(name).filename().c_str(), kind.fraction > 0 ? "merged" : "as it is",
-          kind.corrections > 0 ? ", corrected" : "", kind.levels, isGood ? "as one" : "WRONG", found.off, found.missing, found.speedOff,
-          found.flow.imbalance, flow.residuals.back(), found.flow.iterations);
+          kind.corrections > 0 ? ", corrected" : "", kind.walls > 0 ? ", walls united" : "", kind.farField ? ", far field" : "",
+          kind.levels, isGood ? "as one" : "WRONG", found.off, found.missing, found.speedOff, found.flow.imbalance, flow.residuals.back(),
+          found.flow.iterations);
     if (!isGood) return false;
   } catch (const std::exception& error) {
     problem = error.what();
@@ -147,8 +161,9 @@ int checkAll(int64_t n, size_t every) {
   size_t checked = 0, wrong = 0;
   const auto add = [&](const std::string& name, const Mesh& mesh) {
     ++checked;
-    for (const Kind& kind : {Kind{0, 0}, Kind{0.2, 0}, Kind{0.5, 0}, Kind{0, 8}, Kind{0.2, 8}, Kind{0, 0, 2}, Kind{0, 8, 1},
-                             Kind{0.2, 8, 2}, Kind{0.5, 8, 24}}) {
+    for (const Kind& kind :
+         {Kind{0, 0}, Kind{0.2, 0}, Kind{0.5, 0}, Kind{0, 8}, Kind{0.2, 8}, Kind{0, 0, 2}, Kind{0, 8, 1}, Kind{0.2, 8, 2}, Kind{0.5, 8, 24},
+          Kind{0, 8, 0, 30}, Kind{0.2, 8, 2, 30}, Kind{0, 0, 0, 0, true}, Kind{0.2, 8, 2, 45, true}}) {
       if (check(comm, name, mesh, Grid::around(mesh, n, 0.3), kind)) continue;
       ++wrong;
       break;

@@ -270,7 +270,8 @@ class Run {
 #ifdef MANDOLINE_HAVE_PETSC
   /// The first process gathers the whole cut, and phi.
   int finishFlow() {
-    const SolveCells solve = solveDistributed(ranks_, arguments_, *cut_);
+    if (arguments_.uniteWalls) sendGroups();
+    const SolveCells solve = solveDistributed(ranks_, arguments_, *cut_, input_.groups);
     CutResult whole = cut_->gather();
     const std::vector<RankReport> reports = ranks();
     int exitCode = kFine;

@@ -18,7 +18,7 @@ namespace {
 struct Values {
   std::vector<uint64_t> cells;
   std::vector<double> phi;
-  std::vector<uint64_t> correctedCells;     ///< per correction the cell that its face's normal points out of
+  std::vector<uint64_t> correctedCells;     ///< per correction a cell of its face: that which the normal points out of, if any
   std::vector<uint32_t> correctedFaces;     ///< which of the faces of that
   std::vector<double> correctedVelocities;  ///< and what is added there
 
@@ -38,13 +38,16 @@ Values valuesOf(const RankComplex& complex, int rank, const RankFlow& found) {
     values.cells.push_back(complex.cellIds[c]);
     values.phi.push_back(found.flow.phi[c]);
   }
-  for (const auto& [face, velocity] : found.corrections) {
-    const auto cell = size_t(complex.cells.faceCells[2 * size_t(face)]);
-    if (complex.cellRanks[cell] != rank) continue;
-    const auto halfFaces = complex.cells.halfFaces(cell);
-    values.correctedCells.push_back(complex.cellIds[cell]);
-    values.correctedFaces.push_back(uint32_t(std::lower_bound(halfFaces.begin(), halfFaces.end(), 2 * face) - halfFaces.begin()));
-    values.correctedVelocities.push_back(velocity);
+  for (const auto* corrections : {&found.corrections, &found.onSides}) {
+    for (const auto& [face, velocity] : *corrections) {
+      const int32_t* cells = &complex.cells.faceCells[2 * size_t(face)];
+      const auto cell = size_t(cells[0] >= 0 ? cells[0] : cells[1]);
+      if (complex.cellRanks[cell] != rank) continue;
+      const auto halfFaces = complex.cells.halfFaces(cell);
+      values.correctedCells.push_back(complex.cellIds[cell]);
+      values.correctedFaces.push_back(uint32_t(std::lower_bound(halfFaces.begin(), halfFaces.end(), 2 * face) - halfFaces.begin()));
+      values.correctedVelocities.push_back(velocity);
+    }
   }
   return values;
 }
@@ -82,22 +85,25 @@ Flow flowOf(const std::vector<Values>& all, const CellComplex& cells, const std:
 
 void checkDistributedFlow(const Arguments& arguments) {
   checkFlowOutputs(arguments);
-  const std::pair<bool, const char*> others[] = {{arguments.refines(), "--refine"},
-                                                 {arguments.uniteWalls.has_value(), "--unite-walls"},
-                                                 {arguments.flow.farField, "--far-field"},
-                                                 {arguments.flow.steps.has_value(), "--steps"}};
+  const std::pair<bool, const char*> others[] = {{arguments.refines(), "--refine"}, {arguments.flow.steps.has_value(), "--steps"}};
   for (const auto& [isGiven, name] : others) {
     if (isGiven) throw UsageError(std::string(name) + ": a flow of several processes has none; mandoline flow does");
   }
 }
 
-SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const DistributedCut& cut) {
+SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const DistributedCut& cut, const TriangleGroups& groups) {
   detail::Communicator& comm = ranks.comm();
   const CoarsenOptions coarsening = coarsenOptions(arguments, {1, {}});
-  const RankComplex complex = detail::mergedComplex(comm, cut, cut.piece(), {mergeFraction(arguments), coarsening, kFlowGhosts});
+  detail::RankMerging merging{mergeFraction(arguments), coarsening, kFlowGhosts};
+  const WallOptions walls{{1, {}}, arguments.uniteWalls.value_or(0), groups.triangleGroup};
+  if (arguments.uniteWalls) merging.walls = &walls;
+  const RankComplex complex = detail::mergedComplex(comm, cut, cut.piece(), merging);
   const std::array<double, 3> wind = *arguments.flow.wind;
-  const RankFlow found =
-      solveRankFlow(comm, complex, wind, arguments.flow.corrections.value_or(FlowOptions().corrections), throwIfInterrupted);
+  RankFlowOptions options;
+  options.corrections = arguments.flow.corrections.value_or(FlowOptions().corrections);
+  options.farField = arguments.flow.farField;
+  options.onIteration = throwIfInterrupted;
+  const RankFlow found = solveRankFlow(comm, complex, wind, options);
   std::vector<Values> all = gather(comm, complex, found);
   return [=, status = found.flow.status, residuals = found.flow.residuals](const CellComplex& cells, const RunOptions& options) {
     Flow flow = flowOf(all, cells, wind, options);

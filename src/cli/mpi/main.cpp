@@ -43,7 +43,7 @@ options. Each process reads its share of the mesh and cuts some layers of the gr
 
 flow solves the potential flow by PETSc, where the program was built with it, as mandoline
 flow does; the first process gathers the whole and writes it. PETSC_OPTIONS chooses other
-solvers. Not with --refine, --unite-walls, --far-field and --steps.
+solvers. Not with --refine and --steps.
 
 plan tells what the busiest of P processes, up to 100000, would have of a cut: cut-cells,
 faces and how many of these it shares with others, memory, what it sends, and how many times

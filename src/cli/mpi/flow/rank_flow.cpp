@@ -9,10 +9,12 @@
 #include "cli/mpi/flow/petsc_solver.h"
 #include "cli/mpi/flow/rank_wind.h"
 #include "operators/measure/vector.h"
+#include "operators/require_cut_mesh.h"
 #include "physics/cell_edges.h"
 #include "physics/cell_velocities.h"
 #include "physics/correction_passes.h"
 #include "physics/derivatives.h"
+#include "physics/far_field.h"
 #include "physics/system_matrix.h"
 
 namespace mandoline::cli {
@@ -32,33 +34,55 @@ class RankSolver {
       problem_.boundary = wind.boundary;
       system_ = poissonSystem(cells_, problem_);
       matrix_.emplace(system_.matrix, added_);
+      terms_ = physics::boundaryTerms(cells_, problem_);
     });
     phi_.assign(cells_.cellCount(), 0);
     added_.assign(cells_.cellCount(), 0);
+    isActive_ = sums([&](uint32_t c) { return std::fabs(system_.rhs[c]); });
     balance();
   }
 
-  Flow run(int corrections, const std::function<void()>& onIteration) {
+  void solve(const RankFlowOptions& options) {
     norm_ = std::sqrt(sum([&](uint32_t c) { return square(system_.rhs[c]); }));
-    flow_.residuals.push_back(norm_ > 0 ? 1 : 0);
+    if (!flow_.residuals.empty()) flow_.residuals.pop_back();
+    flow_.residuals.push_back(norm_ > 0 ? residual() : 0);
     if (norm_ > 0) {
-      solver_.emplace(comm_.handle(), rows(), onIteration);
+      if (!solver_) solver_.emplace(comm_.handle(), rows(), options.onIteration);
       iterate(kGoal);
-      if (corrections > 0 && flow_.status == SolveStatus::converged) correct(corrections);
+      if (options.corrections > 0 && flow_.status == SolveStatus::converged) correct(options.corrections);
     }
     setMeans();
-    flow_.phi = phi_;
-    return flow_;
   }
 
-  /// Those that phi is solved with.
-  std::vector<physics::FaceCorrection> corrections() const {
-    std::vector<physics::FaceCorrection> result;
-    for (size_t i = 0; i < corrections_.size(); ++i) result.push_back({corrected_[i], corrections_[i]});
+  /// As solveFlow() does it, but each pass solves as well as the last.
+  void solveFarField(const physics::FarField& farField, const RankFlowOptions& options) {
+    using Next = physics::FarFieldPasses::Next;
+    physics::FarFieldPasses passes(farField, problem_.boundary.value);
+    solve(options);
+    while (flow_.status == SolveStatus::converged) {
+      const Next next = passes.add(withFaceVelocities(), problem_.boundary.value);
+      if (next == Next::limit) flow_.status = SolveStatus::iterationLimit;
+      if (next != Next::pass) break;
+      solveNext(options);
+    }
+    for (size_t b = 0; b < passes.ofDipoles().size(); ++b) {
+      const uint32_t h = problem_.boundary.halfFaces[b];
+      const double velocity = passes.ofDipoles()[b];
+      if (velocity != 0) onSides_.push_back({h / 2, h % 2 == 0 ? velocity : -velocity});
+    }
+  }
+
+  RankFlow take() {
+    RankFlow result;
+    for (size_t i = 0; i < corrections_.size(); ++i) result.corrections.push_back({corrected_[i], corrections_[i]});
+    result.onSides = std::move(onSides_);
+    result.iterations = iterations_;
+    result.flow = std::move(flow_);
+    result.flow.phi = std::move(phi_);
     return result;
   }
-  int iterations() const { return iterations_; }
-  const std::vector<uint32_t>& own() const { return own_; }
+  /// That of the last pass.
+  const PoissonProblem& problem() const { return problem_; }
 
  private:
   static constexpr double kGoal = 1e-14;
@@ -86,7 +110,6 @@ class RankSolver {
   void balance() {
     const Vector volumes = sums([&](uint32_t c) { return cells_.cellVolume[c]; });
     constexpr int kPasses = 3;  // each leaves a rounding error of the excess that it subtracts
-    isActive_ = sums([&](uint32_t c) { return std::fabs(system_.rhs[c]); });
     for (int pass = 0; pass < kPasses; ++pass) {
       const Vector excess = sums([&](uint32_t c) { return system_.rhs[c]; });
       for (const uint32_t c : own_) {
@@ -160,20 +183,11 @@ class RankSolver {
   void correct(int most) {
     const Vector rhs = system_.rhs, plain = phi_;
     const std::vector<double> residuals = flow_.residuals;
-    physics::DualEdges dual;
-    detail::Csr<uint32_t> edges;
-    std::vector<physics::BoundaryTerm> terms;
-    std::optional<physics::Differentiator> differentiator;
-    std::optional<physics::CellFitter> fitter;
     const RunOptions quiet{1, {}};
     detail::Monitor unheard(quiet, 1);
+    differentiate();
     comm_.together("flow", [&] {
-      dual = physics::dualEdges(cells_, problem_.dualPoints);
-      edges = physics::cellEdges(cells_, dual, 1);
-      terms = physics::boundaryTerms(cells_, problem_);
-      differentiator.emplace(physics::FitSource{cells_, dual, edges, problem_}, terms, 1);
-      fitter.emplace(differentiator->fitter(unheard));
-      corrected_ = differentiator->corrected();
+      if (!fitter_) fitter_.emplace(differentiator_->fitter(unheard));
     });
     /// Each face counts in one process.
     const auto product = [&](const Vector& a, const Vector& b) {
@@ -184,14 +198,14 @@ class RankSolver {
       }
       return comm_.reduce(sum, MPI_SUM);
     };
-    physics::CorrectionPasses passes(corrected_.size(), 0x1p10 * kGoal * kGoal * squareOfPlain(*differentiator), false);
+    physics::CorrectionPasses passes(corrected_.size(), 0x1p10 * kGoal * kGoal * squareOfPlain(), false);
     for (int pass = 0; pass < most; ++pass) {
       Vector found;
-      comm_.together("flow", [&] { found = differentiator->corrections(*fitter, phi_, unheard); });
+      comm_.together("flow", [&] { found = differentiator_->corrections(*fitter_, phi_, unheard); });
       if (!passes.add(std::move(found), product)) return;
       corrections_ = passes.next();
       system_.rhs = rhs;
-      differentiator->addFlows(corrections_, system_.rhs);
+      differentiator_->addFlows(corrections_, system_.rhs);
       flow_.residuals.push_back(residual());
       if (flow_.residuals.back() > kGoal) iterate(kGoal);
       if (flow_.status != SolveStatus::converged) break;
@@ -203,8 +217,40 @@ class RankSolver {
     flow_.status = SolveStatus::converged;
   }
 
-  double squareOfPlain(const physics::Differentiator& differentiator) {
-    const Vector plain = differentiator.plain(phi_, 1);
+  /// Makes what differences of phi on faces take.
+  void differentiate() {
+    comm_.together("flow", [&] {
+      if (differentiator_) return;
+      dual_ = physics::dualEdges(cells_, problem_.dualPoints);
+      edges_ = physics::cellEdges(cells_, dual_, 1);
+      differentiator_.emplace(physics::FitSource{cells_, dual_, edges_, problem_}, terms_, 1);
+      corrected_ = differentiator_->corrected();
+    });
+  }
+
+  Flow withFaceVelocities() {
+    differentiate();
+    Flow flow;
+    comm_.together("flow", [&] {
+      flow.phi = phi_;
+      flow.faceVelocity = differentiator_->plain(phi_, 1);
+      flow.faceVelocity.resize(cells_.faceCount());
+      for (size_t i = 0; i < corrections_.size(); ++i) flow.faceVelocity[corrected_[i]] += corrections_[i];
+      physics::setOnBoundary(problem_.boundary, flow.faceVelocity);
+    });
+    return flow;
+  }
+
+  /// With other values of the boundary; goes on from phi.
+  void solveNext(const RankFlowOptions& options) {
+    comm_.together("flow", [&] { system_.rhs = physics::rightSide(cells_, problem_.boundary, terms_, {{}, problem_.boundary.value, {}}); });
+    balance();
+    corrections_.clear();
+    solve(options);
+  }
+
+  double squareOfPlain() {
+    const Vector plain = differentiator_->plain(phi_, 1);
     double sum = 0;
     for (size_t f = 0; f < cells_.faceCount(); ++f) {
       const int32_t cell = cells_.faceCells[2 * f];
@@ -250,16 +296,22 @@ class RankSolver {
   PoissonProblem problem_;
   std::optional<physics::SystemMatrix> matrix_;
   std::optional<PetscSolver> solver_;
-  double norm_ = 0;  // of the right side without corrections
+  std::vector<physics::BoundaryTerm> terms_;
+  physics::DualEdges dual_;
+  detail::Csr<uint32_t> edges_;
+  std::optional<physics::Differentiator> differentiator_;  // once it is needed
+  std::optional<physics::CellFitter> fitter_;              // likewise
+  double norm_ = 0;                                        // of the right side without corrections
   Flow flow_;
   Vector phi_, added_, corrections_;
   std::vector<uint32_t> corrected_;  // faces
-  Vector isActive_;                  // per component: more than 0 where something flows
+  std::vector<physics::FaceCorrection> onSides_;
+  Vector isActive_;  // per component: more than 0 where something flows
   int iterations_ = 0;
 };
 
 /// Of the flow through the faces of cells, of a wind of length 1.
-double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const RankWind& wind, const RankFlow& found) {
+double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const Boundary& boundary, const RankFlow& found) {
   const CellComplex& cells = complex.cells;
   Vector sums(cells.cellCount());
   Vector added(cells.faceCount());
@@ -276,9 +328,9 @@ double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const
       sums[a] += flux, sums[b] -= flux;
     }
   }
-  for (size_t b = 0; b < wind.boundary.halfFaces.size(); ++b) {
-    const uint32_t h = wind.boundary.halfFaces[b];
-    sums[size_t(cells.faceCells[h])] += wind.boundary.value[b] * cells.faceArea[h / 2];
+  for (size_t b = 0; b < boundary.halfFaces.size(); ++b) {
+    const uint32_t h = boundary.halfFaces[b];
+    sums[size_t(cells.faceCells[h])] += boundary.value[b] * cells.faceArea[h / 2];
   }
   double worst = 0;
   for (size_t c = 0; c < sums.size(); ++c) {
@@ -288,35 +340,55 @@ double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const
   return largest > 0 ? worst / largest : 0;
 }
 
+void solveInFarField(detail::Communicator& comm, const RankComplex& complex, const RankWind& through, const RankFlowOptions& options,
+                     RankSolver& solver) {
+  physics::FarFieldShare share;
+  comm.together("flow", [&] {
+    share.parts = through.parts;
+    for (const int32_t rank : complex.cellRanks) share.isOwn.push_back(rank == comm.rank());
+    share.sum = [&](Vector& numbers) { comm.reduce(numbers, MPI_SUM); };
+    share.least = [&](Vector& numbers) { comm.reduce(numbers, MPI_MIN); };
+    // Which of the whole's faces it is, no process knows.
+    if (physics::wallOnSide(complex.cells, through.boundary, share))
+      operators::refuse("With the far field no wall may reach a side of the box, but one does.");
+  });
+  const physics::FarField farField(complex.cells, through.boundary, share);
+  if (farField.hasDipoles())
+    solver.solveFarField(farField, options);
+  else
+    solver.solve(options);
+}
+
 }  // namespace
 
-RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind, int corrections,
-                       const std::function<void()>& onIteration) {
-  RankFlow result;
+RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind,
+                       const RankFlowOptions& options) {
   const double length = measuring::length(wind);
   std::array<double, 3> unit{};
   for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
   const Halo halo(comm, complex);
   const RankWind through = rankWind(comm, complex, halo, unit);
   RankSolver solver(comm, complex, halo, through);
-  result.flow = solver.run(corrections, onIteration);
-  result.corrections = solver.corrections();
-  result.iterations = solver.iterations();
-  result.imbalance = imbalanceOf(comm, complex, through, result);
+  if (options.farField)
+    solveInFarField(comm, complex, through, options, solver);
+  else
+    solver.solve(options);
+  RankFlow result = solver.take();
+  result.imbalance = imbalanceOf(comm, complex, solver.problem().boundary, result);
   result.flow.wind = wind;
   result.flow.throttled = through.throttled;
   comm.together("flow", [&] {
-    PoissonProblem problem;
-    problem.boundary = through.boundary;
     const RunOptions quiet{1, {}};
     detail::Monitor unheard(quiet, 1);
-    physics::fillVelocities(complex.cells, problem, unheard, result.flow);
+    physics::fillVelocities(complex.cells, solver.problem(), unheard, result.flow);
   });
   result.flow.cellGradient.clear();
   for (Vector* values : {&result.flow.phi, &result.flow.cellVelocity}) {
     for (double& value : *values) value *= length;
   }
-  for (physics::FaceCorrection& correction : result.corrections) correction.velocity *= length;
+  for (auto* added : {&result.corrections, &result.onSides}) {
+    for (physics::FaceCorrection& correction : *added) correction.velocity *= length;
+  }
   return result;
 }
 

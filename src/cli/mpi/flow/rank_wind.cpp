@@ -60,7 +60,8 @@ CellComponents partsOf(detail::Communicator& comm, const RankComplex& complex, c
 RankWind rankWind(detail::Communicator& comm, const RankComplex& complex, const Halo& halo, const std::array<double, 3>& wind) {
   RankWind result;
   result.components = componentsOf(comm, complex);
-  const CellComponents parts = partsOf(comm, complex, halo);
+  result.parts = partsOf(comm, complex, halo);
+  const CellComponents& parts = result.parts;
   std::vector<uint32_t> ownPart = parts.cellComponent;  // each cell counts once
   for (size_t c = 0; c < ownPart.size(); ++c) {
     if (complex.cellRanks[c] != comm.rank()) ownPart[c] = kNone;

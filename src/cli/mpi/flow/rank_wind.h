@@ -9,7 +9,8 @@ namespace mandoline::cli {
 struct RankWind {
   Boundary boundary;                ///< that of the process's cells, ghosts among them; as windBoundary() of the whole
   CellComponents components;        ///< of the whole, per cell of the process
-  std::vector<uint32_t> throttled;  ///< of these
+  CellComponents parts;             ///< between slits, likewise; some numbers are of none
+  std::vector<uint32_t> throttled;  ///< of the components
 };
 
 /// Collective.
