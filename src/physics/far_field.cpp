@@ -36,8 +36,8 @@ size_t rowOf(double x, double low, double edge, size_t count) {
 /// That around those of all processes.
 void uniteBoxes(const FarFieldShare& share, detail::Box& box) {
   if (!share.least) return;
-  std::vector<double> bounds;
-  for (size_t d = 0; d < 3; ++d) bounds.insert(bounds.end(), {box.low[d], -box.high[d]});
+  std::vector<double> bounds(6);
+  for (size_t d = 0; d < 3; ++d) bounds[2 * d] = box.low[d], bounds[2 * d + 1] = -box.high[d];
   share.least(bounds);
   for (size_t d = 0; d < 3; ++d) box.low[d] = bounds[2 * d], box.high[d] = -bounds[2 * d + 1];
 }
