@@ -1,6 +1,7 @@
 #include "physics/secants.h"
 
 #include <cmath>
+#include <utility>
 
 namespace mandoline::physics {
 
@@ -11,7 +12,7 @@ static void addTimes(double factor, const std::vector<double>& values, std::vect
 double Secants::add(const std::vector<double>& x, std::vector<double> found) {
   std::vector<double> missing = found;
   addTimes(-1, x, missing);
-  if (!found_.empty()) {
+  if (!std::exchange(isFirst_, false)) {
     addTimes(-1, found, found_), addTimes(-1, missing, missing_);
     addDirection(std::move(missing_), std::move(found_));
   }

@@ -32,6 +32,7 @@ class Secants {
   std::function<double(double)> sum_;
   std::vector<Direction> directions_;
   std::vector<double> found_, missing_;  ///< f(x), and f(x) - x, of the last x
+  bool isFirst_ = true;                  ///< also where this process has no number of x
 };
 
 }  // namespace mandoline::physics
