@@ -236,6 +236,15 @@ test('what was freed refuses calls, by name', async () => {
   for (const stage of ['count', 'first', 'cut']) refused(() => cutter[stage](0), stage, 'The brick cutter was freed.');
 });
 
+test('what is freed while it cuts finishes that cut, and leaves the memory as it should', async () => {
+  const [recutter, cutter] = [await createRecutter(grid), await createBrickCutter(mesh, grid)];
+  const frame = moved(mesh, 0.02);
+  recutter.cut(mesh);
+  assert.deepEqual(withoutStats(recutter.cut(frame, { progress: () => recutter.free() })), withoutStats(cut(frame, grid)));
+  assert.deepEqual(cutter.cut(0, { progress: () => cutter.free() }), (await createBrickCutter(mesh, grid)).cut(0));
+  for (const object of [recutter, cutter]) assert.throws(() => object.cut(mesh), { code: 'badArgument', message: /was freed/ });
+});
+
 test('in a worker they are the same, with promises', () =>
   withWorker(async (worker) => {
     const recutter = await worker.createRecutter(grid);

@@ -25,6 +25,16 @@ test('a solver gives what solvePoisson() does, and takes fewer iterations from n
   assert.throws(() => solver.solve(), { code: 'badArgument', stage: 'solve', message: 'The Poisson solver was freed.' });
 });
 
+test('what is freed while it works finishes that, and leaves the memory as it should', () => {
+  const [solver, another] = [1, 2].map(() => physics.createPoissonSolver(cells, { boundary }));
+  assert.deepEqual(solver.solve({ source }, { progress: () => solver.free() }), another.solve({ source }));
+  assert.throws(() => solver.solve(), { code: 'badArgument', message: 'The Poisson solver was freed.' });
+  const heat = { problem: { boundary }, phi: source, timeStep: 0.1 };
+  const [freed, other] = [physics.createHeatStepper(cells, heat), physics.createHeatStepper(cells, heat)];
+  assert.deepEqual(freed.step({ progress: () => freed.free() }), other.step());
+  assert.throws(() => freed.phi(), { code: 'badArgument', message: /was freed/ });
+});
+
 test('what it is given wrong is named, and what the callback throws is thrown', () => {
   const solver = physics.createPoissonSolver(cells, { boundary });
   for (const data of [{ source: [1] }, { start: [1] }, { boundaryValue: [NaN] }, { sources: [] }, 7])

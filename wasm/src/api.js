@@ -32,14 +32,37 @@ function keepTwin({ value: given, error }, { member }, { origin, host, twins, ha
   return { value };
 }
 
+/** What deletes a handle once it is freed, but not while a method runs, whose callback may free the object. */
+function stateOf(handle, isThere) {
+  let uses = 0;
+  let isFreed = false;
+  const deleteUnused = () => {
+    if (isFreed && uses === 0 && isThere()) handle.delete();
+  };
+  return {
+    free() {
+      isFreed = true;
+      deleteUnused();
+    },
+    use(run) {
+      ++uses;
+      const answer = run(); // where this throws, the handle is gone with its memory
+      --uses;
+      deleteUnused();
+      return answer;
+    },
+  };
+}
+
 /** The outcome with an object instead of the handle that a call returned: its methods are those of the handle. */
 function withObject({ value: handle, error }, { gives }, host, bindings) {
   if (error) return { error };
+  const state = stateOf(handle, () => host.isCurrent(bindings));
   const run =
     (method) =>
     (_bindings, ...args) => {
       if (!host.isCurrent(bindings)) throw bad(`The ${gives.type} is gone with the memory that it was in, since a call failed.`);
-      return handle[method](...args);
+      return state.use(() => handle[method](...args));
     };
   const calls = Object.entries(gives.methods).map(([method, call]) => [
     method,
@@ -50,7 +73,7 @@ function withObject({ value: handle, error }, { gives }, host, bindings) {
     named(method, expectState)();
     return methods[method](...given);
   };
-  return { value: makeObject(gives, perform, () => host.isCurrent(bindings) && handle.delete()) };
+  return { value: makeObject(gives, perform, state.free) };
 }
 
 /** A call of a table, on the module of a host. */
