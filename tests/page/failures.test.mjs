@@ -245,6 +245,25 @@ describe('when the graphics context is lost', () => {
     await page.mouse.click(x + width / 2, y + height / 2);
     await page.locator('#cell-card').waitFor();
   });
+
+  test('the page says so until it is back, whatever is answered meanwhile', async (t) => {
+    const page = await site.open(t, `${start}&explode=0,0`);
+    await lose(page);
+    await eventually(async () => assert.match(await textOf(page, alert), /The picture is lost for now/));
+    await page.evaluate(() => (location.hash += '&compare=voxels'));
+    await page.locator('#divider').waitFor();
+    assert.match(await textOf(page, alert), /The picture is lost for now/);
+    await restore(page);
+    await eventually(async () => assert.equal(await page.locator(alert).count(), 0));
+  });
+});
+
+test('that a mesh is not there is still said when another one, which takes its place, has been compared', async (t) => {
+  const page = await site.open(t, 'mesh=unicorn&n=4&explode=0,0&compare=voxels', { panels: [] });
+  await page.locator('#divider').waitFor();
+  assert.match(await textOf(page, '#alerts'), /no "unicorn"/);
+  await page.locator('#cells').press('ArrowRight');
+  await eventually(async () => assert.equal(await textOf(page, '#alerts'), ''));
 });
 
 test('a worker that turns out not to start does not take the place of the one after it, and is ended in silence', async () => {

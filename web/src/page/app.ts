@@ -288,7 +288,7 @@ export class App {
         this.work.succeed();
         this.shown = { mesh: this.mesh, cutting };
         this.state.cutError.value = null;
-        this.state.clearAlerts();
+        this.state.clearAlerts('mesh', 'answer');
       } catch (error) {
         if (isAbort(error)) return;
         this.work.fail();

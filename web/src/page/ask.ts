@@ -1,15 +1,15 @@
 import { isAbort } from '../model/failure';
 import { asPageError } from './failure';
-import type { State } from './state';
+import type { About, State } from './state';
 
-/** Resolves to the answer, or to null after an alert. */
-export async function ask<T>(state: State, answer: Promise<T>): Promise<T | null> {
+/** Resolves to the answer, or to null after an alert. Many an answer comes unasked, so others say nothing of an alert about the mesh. */
+export async function ask<T>(state: State, answer: Promise<T>, about: About = 'answer'): Promise<T | null> {
   try {
     const value = await answer;
-    state.clearAlerts();
+    state.clearAlerts(about);
     return value;
   } catch (error) {
-    if (!isAbort(error)) state.alert(asPageError(error));
+    if (!isAbort(error)) state.alert(asPageError(error), about);
     return null;
   }
 }

@@ -52,6 +52,6 @@ export class Checking {
     const model = this.state.model.value;
     if (!model) return;
     this.state.checked.value = { model: model.id, checks };
-    if (!checks.pass) this.state.alert(pageError('The cut-mesh is wrong', checksSentence(checks, model.counts.cutCells) ?? ''));
+    if (!checks.pass) this.state.alert(pageError('The cut-mesh is wrong', checksSentence(checks, model.counts.cutCells) ?? ''), 'mesh');
   }
 }

@@ -24,7 +24,7 @@ arePanelsOpen.subscribe((open) => document.body.classList.toggle('with-panels', 
 try {
   start();
 } catch (error) {
-  state.alert(asPageError(error));
+  state.alert(asPageError(error), 'picture');
   state.status.value = 'error';
 }
 
@@ -45,7 +45,7 @@ function start(): void {
     slice: (planes, untouched) => engine.slice(planes, untouched),
     onError: (error) => state.alert(error),
     onContext: (problem) => {
-      if (problem) lost = state.alert(problem);
+      if (problem) lost = state.alert(problem, 'picture');
       else state.dismiss(lost);
     },
   });

@@ -12,10 +12,14 @@ import type { Comparison } from '../model/comparison';
 import type { Measurement } from '../model/measurement';
 import type { SmokeNumbers, Wind } from '../model/wind';
 
+/** What an alert is about: the mesh and its cut, the picture as such, or an answer to something else that was asked. */
+export type About = 'mesh' | 'picture' | 'answer';
+
 /** What is said on top of the picture: an alert stays until it is dismissed or cleared, a notice goes away by itself. */
 export interface Message {
   id: number;
   kind: 'alert' | 'notice';
+  about?: About;
   /** Of an alert. */
   title?: string;
   detail: string;
@@ -78,8 +82,8 @@ export class State {
   private said = 0;
 
   /** Gives what dismisses it. */
-  alert({ title, detail }: PageError): number {
-    return this.say({ kind: 'alert', title, detail });
+  alert({ title, detail }: PageError, about: About = 'answer'): number {
+    return this.say({ kind: 'alert', about, title, detail });
   }
 
   notice(detail: string): void {
@@ -91,9 +95,9 @@ export class State {
     this.messages.value = this.messages.value.filter((message) => message.id !== id);
   }
 
-  /** Something has succeeded since, so that earlier alerts are old news. */
-  clearAlerts(): void {
-    this.messages.value = this.messages.value.filter(({ kind }) => kind !== 'alert');
+  /** Something has succeeded since, so that earlier alerts about the like are old news. */
+  clearAlerts(...abouts: About[]): void {
+    this.messages.value = this.messages.value.filter(({ about }) => !about || !abouts.includes(about));
   }
 
   private say(message: Omit<Message, 'id'>): number {

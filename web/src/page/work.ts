@@ -29,7 +29,7 @@ export class Work {
 
   private done(): void {
     if (--this.tasks > 0) return;
-    for (const error of this.troubles.splice(0)) this.state.alert(error);
+    for (const error of this.troubles.splice(0)) this.state.alert(error, 'mesh');
     this.state.status.value = this.failed ? 'error' : 'ready';
   }
 

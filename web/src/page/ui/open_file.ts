@@ -8,6 +8,7 @@ export async function openFile(app: App, file: File): Promise<void> {
   const bytes = await ask(
     app.state,
     file.arrayBuffer().catch(() => Promise.reject(fileError(file.name, unreadable))),
+    'mesh',
   );
   if (bytes) await app.open({ kind: 'file', name: file.name }, bytes);
 }
