@@ -79,6 +79,8 @@ struct Arguments {
   std::optional<double> uniteWalls;  ///< the angle, in degrees
 
   bool refines() const { return refine > 0 || !refineBoxes.empty(); }
+  /// The option that says so.
+  const char* refineOption() const { return refine > 0 ? "--refine" : "--refine-box"; }
   OnlyArguments only;
   std::optional<double> insideThreshold;  ///< of estimates: see InsideOptions
   SliceArguments slice;

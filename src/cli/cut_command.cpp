@@ -103,9 +103,7 @@ bool needsComplex(const Arguments& arguments) {
 }
 
 void checkCutOutputs(const Arguments& arguments) {
-  std::vector<NamedFile> files;
-  if (arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
-  if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
+  std::vector<NamedFile> files = filesBesideOutputs(arguments);
   bool hasCells = false, hasVtu = false, hasFolder = false;
   for (const std::string& output : arguments.outputs) {
     if (isPolyMesh(output)) {
@@ -127,7 +125,7 @@ void checkCutOutputs(const Arguments& arguments) {
   if (arguments.coarsen && !hasCells)
     throw UsageError("--coarsen: only .vtu and .json files and polyMesh folders have cells away from the surface");
   for (const auto& [isGiven, option] : {std::pair(arguments.merge.has_value(), "--merge"),
-                                        {arguments.refines(), "--refine"},
+                                        {arguments.refines(), arguments.refineOption()},
                                         {arguments.uniteWalls.has_value(), "--unite-walls"}}) {
     if (isGiven && !hasCells) throw UsageError(std::string(option) + ": only .vtu and .json files and polyMesh folders have all cells");
   }

@@ -21,10 +21,15 @@ bool isInsideDefault(const Arguments& arguments) {
 
 }  // namespace
 
-void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule) {
+std::vector<NamedFile> filesBesideOutputs(const Arguments& arguments) {
   std::vector<NamedFile> files;
   if (!arguments.mesh.empty() && arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
   if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
+  return files;
+}
+
+void checkOutputs(const Arguments& arguments, bool (*isAllowed)(FileFormat), const std::string& rule) {
+  std::vector<NamedFile> files = filesBesideOutputs(arguments);
   for (const std::string& output : arguments.outputs) {
     const std::optional<FileFormat> format = output == "-" ? arguments.format : formatOf(output);
     if (!format || !isAllowed(*format)) throw UsageError(output + ": " + rule);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cli/arguments.h"
+#include "cli/files.h"
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 
@@ -12,6 +13,9 @@ namespace mandoline::cli {
 
 /// In the name of an output of cut: one file for each region.
 inline constexpr std::string_view kRegionMark = "{region}";
+
+/// The mesh and the report, which no output may overwrite, nor the report the mesh: for requireDifferent().
+std::vector<NamedFile> filesBesideOutputs(const Arguments& arguments);
 
 /// Throws UsageError for an output of a format that is not allowed, `rule` saying which are, for a name with {region}, and if two of the
 /// files are the same; FileError for one in a folder that does not exist.

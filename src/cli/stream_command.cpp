@@ -58,12 +58,15 @@ void checkArguments(const Arguments& arguments) {
                                                  {arguments.uniteWalls.has_value(), "--unite-walls"},
                                                  {arguments.faces, "--faces"},
                                                  {arguments.insideThreshold.has_value(), "--inside-threshold"},
-                                                 {arguments.refines(), "--refine"},
+                                                 {arguments.refines(), arguments.refineOption()},
                                                  {arguments.snapTolerance > 0, "--snap-tolerance"},
                                                  {only.inside || only.outside || !only.regions.empty(), "--only other than cut"}};
   for (const auto& [isGiven, name] : others) {
     if (isGiven) throw UsageError(std::string("--stream does not go with ") + name + ", which needs the whole cut");
   }
+  std::vector<NamedFile> files = filesBesideOutputs(arguments);
+  files.push_back({"-o", folder});
+  requireDifferent(files);
 }
 
 /// Prepares the mesh, and forgets it.

@@ -302,7 +302,8 @@ TEST_CASE("A plan for more processes than there are layers says that some have n
       {{"--ranks", "100001"}, "--ranks needs numbers"},
       {{"--ranks", "2", "--ranks=3"}, "--ranks is given twice"},
       {{"--ranks", "2", "--merge", "0.2"}, "--merge and --unite-walls: a plan is that of cut alone"},
-      {{"--ranks", "2", "-o", folder.path("a.vtu")}, "-o: a plan is that of cut alone"}};
+      {{"--ranks", "2", "-o", folder.path("a.vtu")}, "-o: a plan is that of cut alone"},
+      {{"--ranks", "2", "--report", mesh}, "the mesh " + mesh + " and --report " + mesh + " are the same file"}};
   for (const auto& [more, message] : bad) {
     Names words = {"plan", mesh, "--cells", "20"};
     words.insert(words.end(), more.begin(), more.end());

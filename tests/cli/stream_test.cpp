@@ -129,6 +129,8 @@ TEST_CASE("Command line: what does not go with --stream", "[cli][stream]") {
       {{"-o", folder.path, "--validate"}, "--stream does not go with --validate"},
       {{"-o", folder.path, "--coarsen", "1"}, "--stream does not go with --coarsen"},
       {{"-o", folder.path, "--merge", "0.2"}, "--stream does not go with --merge"},
+      {{"-o", folder.path, "--refine", "1"}, "--stream does not go with --refine,"},
+      {{"-o", folder.path, "--refine-box", "0,0,0,1,1,1,1"}, "--stream does not go with --refine-box,"},
       {{"-o", folder.path, "--unite-walls", "30"}, "--stream does not go with --unite-walls"},
       {{"-o", folder.path, "--faces"}, "--stream does not go with --faces"},
       {{"-o", folder.path, "--inside-threshold", "0.5"}, "--stream does not go with --inside-threshold"},
@@ -136,6 +138,8 @@ TEST_CASE("Command line: what does not go with --stream", "[cli][stream]") {
       {{"-o", folder.path, "--only", "cut,inside"}, "--stream does not go with --only other than cut"},
       {{"-o", folder.path, "--only", "region=0"}, "--stream does not go with --only other than cut"},
       {{"-o", mesh + "/pieces"}, "can't be written"},
+      {{"-o", folder.path, "--report", mesh}, "the mesh " + mesh + " and --report " + mesh + " are the same file"},
+      {{"-o", folder.path, "--report", folder.path}, "are the same file"},
   };
   for (const auto& [more, message] : cases) {
     CAPTURE(message);
@@ -146,6 +150,7 @@ TEST_CASE("Command line: what does not go with --stream", "[cli][stream]") {
     CHECK(contains(o.err, message));
     CHECK_FALSE(fs::exists(folder.path));
   }
+  CHECK(mandoline::readMesh(mesh).triangleCount() == 12);  // not written over
   CHECK(contains(run(folder.outer, {"info", mesh, "--stream"}).err, "--stream is an option of cut"));
 }
 

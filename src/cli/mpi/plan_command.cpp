@@ -131,6 +131,7 @@ void addMesh(bool isBinary, const MeshView& mesh, std::vector<detail::ShareLoad>
 }
 
 int plan(const Arguments& arguments, const std::vector<uint32_t>& ranks) {
+  requireDifferent(filesBesideOutputs(arguments));
   const uint64_t programBytes = peakMemoryBytes();
   const Input input = readInput(arguments);
   const MeshReport mesh{input, inspect(input.mesh), {}};
