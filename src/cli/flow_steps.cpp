@@ -56,8 +56,7 @@ struct StepsReport {
     json.member("iterations", last.iterations).member("largestDivergence", last.divergence).member("largestSpeed", largestSpeed);
     json.key("forces").open('[');
     for (size_t g = 0; g < forces.size(); ++g) {
-      json.open('{').key("group");
-      groups.empty() ? json.null() : json.value(groups[g]);
+      json.open('{').member("group", groups.empty() ? std::nullopt : std::optional(groups[g]));
       json.key("pressure").values(forces[g].pressure).key("viscous").values(forces[g].viscous).key("moment").values(forces[g].moment);
       json.close('}');
     }

@@ -5,14 +5,11 @@
 namespace mandoline::cli {
 namespace {
 
-template <class Numbers>
-void addNumber(Json& json, const char* key, const Numbers& numbers, size_t region) {
-  json.key(key);
-  if (numbers.empty()) {
-    json.null();
-  } else {
-    json.value(int64_t(numbers[region]));
-  }
+/// That of a region, of an array that may be empty.
+template <class Number>
+std::optional<Number> ofRegion(const std::vector<Number>& numbers, size_t region) {
+  if (numbers.empty()) return std::nullopt;
+  return numbers[region];
 }
 
 std::string counted(uint64_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
@@ -58,25 +55,11 @@ void addInside(Json& json, const PartCounts& parts, const std::optional<InsideRe
 void addRegions(Json& json, const Report& report, const std::optional<InsideRegions>& inside) {
   const CutMesh& m = report.result.mesh;
   json.key("regions").open('[');
-  for (uint32_t r = 0; r < m.regionCount; ++r) {
-    json.open('{').member("id", r);
-    addNumber(json, "winding", m.regionWinding, r);
-    json.member("volume", report.regionVolumes[r]);
-    addNumber(json, "partWinding", m.regionPartWinding, r);
-    addNumber(json, "parity", m.regionParity, r);
-    json.key("insideness");
-    if (m.regionInsideness.empty()) {
-      json.null();
-    } else {
-      json.value(m.regionInsideness[r]);
-    }
-    json.key("inside");
-    if (inside) {
-      json.value(inside->isInside[r] != 0);
-    } else {
-      json.null();
-    }
-    json.close('}');
+  for (size_t r = 0; r < m.regionCount; ++r) {
+    json.open('{').member("id", r).member("winding", ofRegion(m.regionWinding, r)).member("volume", report.regionVolumes[r]);
+    json.member("partWinding", ofRegion(m.regionPartWinding, r)).member("parity", ofRegion(m.regionParity, r));
+    json.member("insideness", ofRegion(m.regionInsideness, r));
+    json.member("inside", inside ? std::optional(inside->isInside[r] != 0) : std::nullopt).close('}');
   }
   json.close(']');
 }

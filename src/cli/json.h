@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -59,6 +60,10 @@ class Json {
     char digits[32];
     text_.append(digits, std::to_chars(digits, digits + sizeof digits, n).ptr);
     return *this;
+  }
+  template <class Value>
+  Json& value(const std::optional<Value>& v) {
+    return v ? value(*v) : null();
   }
   template <class Array>
   Json& values(const Array& array) {

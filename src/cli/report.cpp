@@ -1,6 +1,7 @@
 #include "cli/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -129,7 +130,7 @@ class TextReport {
            << (!inside               ? "-"
                : inside->isInside[r] ? "yes"
                                      : "no")
-           << std::setw(16) << report_.regionVolumes[r] << "\n";
+           << std::setw(16) << volumeText(report_.regionVolumes[r]) << "\n";
     }
     if (shown < mesh_.regionCount) out_ << "  and " << mesh_.regionCount - shown << " more\n";
     if (report_.result.stats.parts.open > 0 && mesh_.regionInsideness.empty()) {
@@ -159,6 +160,13 @@ class TextReport {
     out_ << std::right;
   }
 
+  /// A number as of the JSON report, which has none where doubles overflow.
+  static std::string volumeText(double volume) {
+    if (!std::isfinite(volume)) return "-";
+    std::ostringstream text;
+    text << volume;
+    return text.str();
+  }
   static std::string element(const Check& check) {
     return check.elementKind.empty() ? "-" : check.elementKind + " " + std::to_string(check.element);
   }

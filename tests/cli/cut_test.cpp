@@ -40,6 +40,15 @@ TEST_CASE("Command line: without --report the report is text", "[cli]") {
   REQUIRE(contains(folder.read("report.json"), "\"validation\": null"));
 }
 
+TEST_CASE("Command line: of volumes that doubles can't hold the report has none", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("far.obj", "v 0 0 0\nv 1e104 0 0\nv 0 1e104 0\nv 0 0 1e104\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const std::string text = run(folder, {"cut", mesh, "--cells", "4"}).out;
+  CHECK(contains(text, "         1       yes               -\n"));
+  CHECK_FALSE(contains(text, "nan"));
+  CHECK(contains(run(folder, {"cut", mesh, "--cells", "4", "--report", "-"}).out, "{\"id\": 0, \"winding\": 1, \"volume\": null,"));
+}
+
 TEST_CASE("Command line: default grids", "[cli]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("cube.obj", kCube);
