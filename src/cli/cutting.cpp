@@ -201,7 +201,7 @@ WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {
 }
 
 void requireSelection(const WriteOptions& options, const CutMesh& cutMesh) {
-  const auto isSelected = [&](uint32_t region) { return options.regions.empty() || options.regions[region] != 0; };
+  const auto isSelected = [&](uint32_t region) { return options.hasRegion(region); };
   const std::vector<uint32_t>& regions = cutMesh.cellRegion;
   if (std::any_of(regions.begin(), regions.end(), isSelected)) return;
   const bool hasRegion =

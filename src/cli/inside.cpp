@@ -12,10 +12,8 @@ std::optional<Number> ofRegion(const std::vector<Number>& numbers, size_t region
   return numbers[region];
 }
 
-std::string counted(uint64_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
-
 std::string ofParts(uint32_t count, const PartCounts& counts) {
-  return std::to_string(count) + " of " + counted(counts.winding + counts.parity + counts.open, "part");
+  return std::to_string(count) + " of " + counted(counts.winding + counts.parity + counts.open, "part", "parts");
 }
 
 }  // namespace
@@ -35,8 +33,8 @@ std::string describeInside(const std::optional<InsideRegions>& inside, const Par
   if (counts.parity > 0) say(ofParts(counts.parity, counts) + " not consistently oriented: inside by parity");
   if (counts.open > 0) {
     const bool isEstimated = inside && inside->by == InsideBy::estimate;
-    say(ofParts(counts.open, counts) + " open, with " + counted(counts.openEdges, "open edge") + " around " +
-        counted(counts.holes, "hole") + (isEstimated ? ": inside by an estimate" : ": left out"));
+    say(ofParts(counts.open, counts) + " open, with " + counted(counts.openEdges, "open edge", "open edges") + " around " +
+        counted(counts.holes, "hole", "holes") + (isEstimated ? ": inside by an estimate" : ": left out"));
   }
   return text;
 }

@@ -74,8 +74,6 @@ void addDefects(Json& json, const MeshReport& report) {
   json.close(']');
 }
 
-std::string counted(size_t count, const char* one, const char* many) { return std::to_string(count) + ' ' + (count == 1 ? one : many); }
-
 /// What there is to do about the defects of each kind.
 void addAdvice(std::ostream& out, const MeshInfo& info) {
   if (info.openEdges > 0) out << "  " << counted(info.openEdges, "edge is open", "edges are open") << ": the surface ends there\n";
@@ -140,6 +138,8 @@ void addPairs(Json& json, const char* key, const PairCounts& pairs) {
   json.key(key).open('{').member("pairs", pairs.total());
   for (const Count& count : pairCounts(pairs)) json.member(count.key, count.value);
 }
+
+std::string counted(uint64_t count, const char* one, const char* many) { return std::to_string(count) + ' ' + (count == 1 ? one : many); }
 
 std::vector<Count> pairCounts(const PairCounts& pairs) {
   return {{"crossing", "crossing", pairs.crossing},

@@ -20,6 +20,9 @@ struct Count {
   uint64_t value;
 };
 
+/// For example "1 edge" and "2 edges".
+std::string counted(uint64_t count, const char* one, const char* many);
+
 struct MeshReport {
   const Input& input;
   MeshInfo info;

@@ -43,8 +43,7 @@ OutlineStack outlineStack(const SliceArguments& slice, const std::vector<double>
 /// How many polygons and slits of the regions that are written there are.
 std::array<size_t, 2> shapesOf(const Outlines& layer, const WriteOptions& options) {
   const auto count = [&](const std::vector<uint32_t>& regions) {
-    const auto isWritten = [&](uint32_t r) { return options.regions.empty() || options.regions[r] != 0; };
-    return size_t(std::count_if(regions.begin(), regions.end(), isWritten));
+    return size_t(std::count_if(regions.begin(), regions.end(), [&](uint32_t r) { return options.hasRegion(r); }));
   };
   return {count(layer.polygonRegion), count(layer.slitRegion)};
 }

@@ -15,7 +15,7 @@ class Selection {
 
   bool all() const { return options_.regions.empty() && options_.untouched && !options_.simpleCells; }
   bool allRegions() const { return options_.regions.empty(); }
-  bool has(uint32_t region) const { return allRegions() || options_.regions[region] != 0; }
+  bool has(uint32_t region) const { return options_.hasRegion(region); }
   bool simpleCells() const { return options_.simpleCells; }
   bool hasCutCell(size_t cell) const { return has(cutMesh_.cellRegion[cell]); }
 

@@ -50,8 +50,7 @@ class ComplexWriter {
 
  protected:
   bool hasCell(int64_t c) const {
-    if (c < 0 || (!options_.untouched && c >= cells_.cutCells)) return false;
-    return options_.regions.empty() || options_.regions[cells_.cellRegion[size_t(c)]];
+    return c >= 0 && (options_.untouched || c < cells_.cutCells) && options_.hasRegion(cells_.cellRegion[size_t(c)]);
   }
   void use(uint32_t vertex) {
     if (numbers_.empty()) numbers_.resize(cells_.vertexCount(), kUnused);

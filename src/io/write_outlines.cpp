@@ -25,10 +25,9 @@ struct Line {
 /// Calls visit(lines of one polygon, or one slit) for what is written of a layer.
 template <class Visit>
 void forEachShape(const Outlines& layer, const WriteOptions& options, const Visit& visit) {
-  const auto has = [&](uint32_t region) { return options.regions.empty() || options.regions[region] != 0; };
   std::vector<Line> lines;
   for (size_t p = 0; p < layer.polygonCount(); ++p) {
-    if (!has(layer.polygonRegion[p])) continue;
+    if (!options.hasRegion(layer.polygonRegion[p])) continue;
     lines.clear();
     for (size_t l = layer.polygonLoopOffsets[p]; l < layer.polygonLoopOffsets[p + 1]; ++l) {
       const uint32_t begin = layer.loopOffsets[l], end = layer.loopOffsets[l + 1];
@@ -37,7 +36,7 @@ void forEachShape(const Outlines& layer, const WriteOptions& options, const Visi
     visit(lines);
   }
   for (size_t s = 0; s < layer.slitCount(); ++s) {
-    if (!has(layer.slitRegion[s])) continue;
+    if (!options.hasRegion(layer.slitRegion[s])) continue;
     const uint32_t begin = layer.slitOffsets[s], end = layer.slitOffsets[s + 1];
     const bool closed = end - begin > 2 && layer.slitPoints[begin] == layer.slitPoints[end - 1];
     lines.assign(1, {{layer.slitPoints.data() + begin, end - begin - (closed ? 1 : 0)}, layer.slitRegion[s], closed});

@@ -50,6 +50,8 @@ struct WriteOptions : RunOptions {
   /// Groups of the input's triangles, for those files that have them; none if null. A face that several triangles contain is in the group
   /// of its faceTriangle.
   const TriangleGroups* groups = nullptr;
+
+  bool hasRegion(uint32_t region) const { return regions.empty() || regions[region] != 0; }
 };
 
 /// Takes the bytes of a file, piece after piece. What it throws passes through.
