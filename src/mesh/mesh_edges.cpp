@@ -37,7 +37,7 @@ struct Sides {
 };
 
 template <class F>
-void forPlainSides(const WeldedMesh& mesh, const F& f) {
+void forSides(const WeldedMesh& mesh, const F& f) {
   for (const TriangleId t : mesh.triangleIds()) {
     if (!mesh.kept(t)) continue;
     const auto& v = mesh.triangles.data()[t.number];
@@ -55,8 +55,8 @@ bool sameWay(const std::array<VertexId, 3>& a, const std::array<VertexId, 3>& b)
 }
 
 TriangleId triangleOf(const WeldedMesh& mesh, const Sides& sides, const SideUse& use) {
-  const size_t plain = 3 * mesh.triangles.size();
-  return use.slot() < plain ? TriangleId{use.slot() / 3} : sides.extras[use.slot() - plain].triangle;
+  const size_t sideCount = 3 * mesh.triangles.size();
+  return use.slot() < sideCount ? TriangleId{use.slot() / 3} : sides.extras[use.slot() - sideCount].triangle;
 }
 
 /// Marks the higher one of two triangles with the same vertices among the users of one tri-edge.
@@ -87,8 +87,8 @@ void dropDuplicates(WeldedMesh& mesh, std::span<const SideUse> users, const Side
 /// Finds edges at which triangles may have the same vertices, without a look at the triangles, which are far apart in memory.
 class SameTriangles {
  public:
-  /// `plain`: how many sides are plain ones.
-  explicit SameTriangles(size_t plain) : plain_(plain) {}
+  /// `sideCount`: of all triangles; slots from there on are extras.
+  explicit SameTriangles(size_t sideCount) : sideCount_(sideCount) {}
 
   /// What follows are the edges with another lower end.
   void beginBucket() { pairs_ = 0; }
@@ -96,7 +96,7 @@ class SameTriangles {
   /// users, the same pair comes twice.
   bool mayBeAmong(std::span<const SideUse> users) {
     if (users.size() != 2) return users.size() > 2;
-    if (users[1].slot() >= plain_) return true;
+    if (users[1].slot() >= sideCount_) return true;
     const uint32_t pair = (users[0].slot() / 3) * 0x9e3779b1u ^ (users[1].slot() / 3) * 0x85ebca6bu;  // a collision costs a look
     const uint64_t bit = uint64_t(1) << (pair >> 26);
     const bool isKnown = (pairs_ & bit) != 0;
@@ -105,7 +105,7 @@ class SameTriangles {
   }
 
  private:
-  size_t plain_;
+  size_t sideCount_;
   uint64_t pairs_ = 0;  // of triangles that are the only ones at an edge of the bucket
 };
 
@@ -131,7 +131,7 @@ struct AllUsers {
 Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, MeshEdges& edges) {
   Sides sides;
   if (!mesh.stitches.empty()) {
-    forPlainSides(mesh, [&](VertexId low, const SideUse& use) {
+    forSides(mesh, [&](VertexId low, const SideUse& use) {
       const Stitch* stitch = mesh.findStitch(low.number, use.high().number);
       if (!stitch) return;
       edges.sideEdges[use.slot()] = MeshEdges::kStitched + uint32_t(sides.stitchedOffsets.size() - 1);
@@ -150,19 +150,19 @@ Sides findStitchedSides(const WeldedMesh& mesh, const Arrangement* arrangement, 
   return sides;
 }
 
-/// Moves the edges of what lies beyond the plain sides to where they belong.
+/// Moves the edges of what lies beyond the sides to where they belong.
 void takeExtras(const Sides& sides, const Arrangement* arrangement, MeshEdges& edges) {
   std::vector<TriEdgeId>& stitched = edges.stitched.items;
   std::vector<TriEdgeId>& inner = edges.inner.items;
-  const size_t plain = edges.sideEdges.size() - sides.extras.size(), firstInner = plain + sides.stitchedOffsets.back();
-  stitched.reserve(firstInner - plain);
+  const size_t sideCount = edges.sideEdges.size() - sides.extras.size(), firstInner = sideCount + sides.stitchedOffsets.back();
+  stitched.reserve(firstInner - sideCount);
   inner.reserve(edges.sideEdges.size() - firstInner);
-  for (size_t slot = plain; slot < edges.sideEdges.size(); ++slot) {
+  for (size_t slot = sideCount; slot < edges.sideEdges.size(); ++slot) {
     (slot < firstInner ? stitched : inner).push_back({edges.sideEdges[slot]});
   }
   edges.stitched.offsets = sides.stitchedOffsets;
   if (arrangement && arrangement->innerEdges.size() > 0) edges.inner.offsets = arrangement->innerEdges.offsets;
-  edges.sideEdges.resize(plain);
+  edges.sideEdges.resize(sideCount);
 }
 
 /// The lines that tri-edges with made ends lie on.
@@ -206,7 +206,7 @@ MeshEdges findMeshEdges(WeldedMesh& mesh, const Arrangement* arrangement, EdgeUs
   const Sides sides = findStitchedSides(mesh, arrangement, edges);
   const bool anyStitched = !mesh.stitches.empty();
   const auto forUses = [&](const auto& f) {
-    forPlainSides(mesh, [&](VertexId low, const SideUse& use) {
+    forSides(mesh, [&](VertexId low, const SideUse& use) {
       if (!anyStitched || edges.sideEdges[use.slot()] < MeshEdges::kStitched) f(low, use);
     });
     for (size_t i = 0; i < sides.extras.size(); ++i) {
