@@ -137,12 +137,7 @@ const made = ['box', 'sphere', 'torus-knot'].map((shape) => {
   run('build/mandoline', 'make', shape, '-o', `build/${shape}.obj`);
   return `build/${shape}.obj`;
 });
-const kinds = [
-  [],
-  ['--coarsen', '2,0'],
-  ['--merge', '0.2'],
-  ['--merge', '0.2', '--coarsen', '2,0', '--unite-walls', '30'],
-];
+const kinds = [[], ['--coarsen', '2,0'], ['--merge', '0.2'], ['--merge', '0.2', '--coarsen', '2,0', '--unite-walls', '30']];
 const rows = [...made, ...scans].flatMap((mesh) => kinds.map((cells) => check(mesh, ...cells)));
 console.log(`Cases in ${processes} parts against whole ones:`);
 console.table(rows);
