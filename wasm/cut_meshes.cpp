@@ -21,10 +21,13 @@ val arraysOf(const MeshView& mesh) {
 
 val lastStage(const CutStats& stats) { return val(std::string(stats.stages.empty() ? "input" : stats.stages.back().stage)); }
 
-val outcomeOf(CutResult& result, const val& options) {
+val outcomeOf(CutResult& result, const val& options, std::vector<int32_t> gridCellRegion) {
   if (!result) return failure(result.error, lastStage(result.stats));
   val value = val::object(), plain = toObject(result.mesh, options["copy"]);
-  if (options["gridCellRegion"].as<bool>()) plain.set("gridCellRegion", toArray(result.mesh.gridCellRegion(), options["copy"]));
+  if (options["gridCellRegion"].as<bool>()) {
+    if (gridCellRegion.empty()) gridCellRegion = result.mesh.gridCellRegion();
+    plain.set("gridCellRegion", toArray(gridCellRegion, options["copy"]));
+  }
   plain.set("stats", toObject(result.stats));
   value.set("value", plain);
   if (options["keep"].as<bool>()) value.set("twin", KeptCutMesh(std::move(result.mesh)));

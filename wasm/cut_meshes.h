@@ -53,7 +53,8 @@ val arraysOf(const MeshView& mesh);
 /// The stage that a cut has come to.
 val lastStage(const CutStats& stats);
 /// What a cut gives, with its twin, as the options say: copy, gridCellRegion, keep. The mesh is taken for the twin, if there is to be one.
-val outcomeOf(CutResult& result, const val& options);
+/// `gridCellRegion`: if it has been made.
+val outcomeOf(CutResult& result, const val& options, std::vector<int32_t> gridCellRegion = {});
 /// For the other modules.
 val dataOf(const KeptCutMesh& kept);
 

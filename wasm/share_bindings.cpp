@@ -14,8 +14,10 @@ constexpr int kCutStages = 6;
 /// One share, which stays here from step to step, with the part that it made.
 struct KeptShare {
   CutShare share;
+  size_t triangles;  ///< of the mesh
   CutStats prepared;
   CutPart part;
+  std::vector<int32_t> gridCellRegion;
 };
 
 /// `mesh` is null where options.prepared is the handle of one.
@@ -38,7 +40,8 @@ val beginShare(const val& mesh, const val& grid, const val& options) {
     const ShareOf shareOf{options["index"].as<uint32_t>(), options["count"].as<uint32_t>()};
     CutShare share(prepared, readGrid(grid, prepared.mesh()), shareOf, {1, progressBetween(options, stats.stages.size(), 0)});
     const val summary = toArray(share.summary());
-    return success(object({{"share", val(KeptShare{std::move(share), std::move(stats), {}})}, {"summary", summary}}));
+    KeptShare kept{std::move(share), prepared.mesh().triangleCount(), std::move(stats), {}, {}};
+    return success(object({{"share", val(std::move(kept))}, {"summary", summary}}));
   });
 }
 
@@ -48,9 +51,12 @@ CutPart partOf(KeptShare& kept, const val& summaries, const val& options) {
   return kept.share.part(all, {1, progressBetween(options, kept.prepared.stages.size(), 0)});
 }
 
+/// With what is known before others have made their parts.
 val keepPart(KeptShare& kept, const val& summaries, const val& options) {
   return guarded([&] {
     kept.part = partOf(kept, summaries, options);
+    if (options["gridCellRegion"].as<bool>())
+      kept.gridCellRegion = kept.share.common(std::vector<uint8_t>(kept.triangles)).mesh.gridCellRegion();
     return success(val::null());
   });
 }
@@ -72,7 +78,7 @@ val joinParts(KeptShare& kept, const val& others, const val& options) {
     result.stats.stages = std::move(stages);
     result.stats.totalMs += kept.prepared.totalMs;
     result.stats.exactFallbacks += kept.prepared.exactFallbacks;
-    return outcomeOf(result, options);
+    return outcomeOf(result, options, std::move(kept.gridCellRegion));
   });
 }
 

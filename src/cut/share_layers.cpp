@@ -3,7 +3,7 @@
 namespace mandoline::detail {
 namespace {
 
-SlabRange rangeOf(int32_t a, int32_t b, int32_t c) { return {std::min({a, b, c}), std::max({a, b, c})}; }
+SlabRange rangeOf(int32_t a, int32_t b, int32_t c) { return {std::min(a, std::min(b, c)), std::max(a, std::max(b, c))}; }
 
 /// Twice the areas of a triangle seen along the axes, in quarters of a side of a grid cell; beyond the grid it ends at once.
 uint64_t areaOf(const Slab& a, const Slab& b, const Slab& c) {
@@ -114,7 +114,7 @@ void LayerWork::add(const Slab& a, const Slab& b, const Slab& c, std::optional<s
   constexpr uint64_t kMost = uint64_t(1) << 31;  // so that sums of all stay within 64 bits
   const uint64_t own = kFace * (1 + crossed) + kArea * areaOf(a, b, c);
   const uint64_t work = inner ? kReached * own + kInner * *inner : own;
-  const int64_t each = int64_t(std::min(kMost, work / uint64_t(last - first + 1)));
+  const int64_t each = int64_t(std::min(kMost, first == last ? work : work / uint64_t(last - first + 1)));
   changes_[size_t(first)] += each;
   changes_[size_t(last) + 1] -= each;
 }

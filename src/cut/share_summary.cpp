@@ -1,6 +1,7 @@
 #include "cut/share_summary.h"
 
 #include <array>
+#include <bit>
 #include <cstring>
 
 #include "base/sort.h"
@@ -184,8 +185,8 @@ void readBrick(Reader& from, const CellLayers& layers, Bricks& bricks, BrickCuts
   forArrays(cut, [&](auto& array) { array = from.itemsOfDifferences<typename std::remove_cvref_t<decltype(array)>::value_type>(); });
 }
 
-/// Which vertices of the mesh and its edges loops have, by the whole's ids: words of 32 of them, each with its place, ascending.
-using UsedWords = std::vector<KeyedItem>;
+/// Which vertices of the mesh and its edges loops have: a bit for each, by the whole's ids.
+using UsedBits = std::vector<uint32_t>;
 
 /// The whole's id of a vertex of the mesh or its edges.
 uint32_t wholeId(const CutState& state, const ShareExcerpt* excerpt, VertexId v) {
@@ -195,59 +196,48 @@ uint32_t wholeVertices(const CutState& state, const ShareExcerpt* excerpt) {
   return excerpt ? excerpt->wholeVertices : uint32_t(state.used.size());
 }
 
-UsedWords usedHere(const CutState& state, const ShareExcerpt* excerpt) {
-  UsedWords used;
-  for (const VertexId v : listUsed(state.used)) {
-    const uint32_t id = wholeId(state, excerpt, v);
-    if (used.empty() || used.back().key != id / 32) used.push_back({id / 32, 0});
-    used.back().item |= 1u << id % 32;
-  }
-  return used;
-}
-
-void addUsed(const UsedWords& used, Writer& to) {
+/// Those of the loops here: the words that have any, each with its place.
+void addUsed(const CutState& state, const ShareExcerpt* excerpt, Writer& to) {
   std::vector<uint32_t> places, words;
-  for (const auto& [place, word] : used) {
-    places.push_back(uint32_t(place));
-    words.push_back(word);
+  for (uint32_t v = 0; v < state.used.size(); ++v) {
+    if (state.used[v].load(std::memory_order_relaxed) == 0) continue;
+    const uint32_t id = wholeId(state, excerpt, {v}), place = id / 32;
+    if (places.empty() || places.back() != place) {
+      places.push_back(place);
+      words.push_back(0);
+    }
+    words.back() |= 1u << id % 32;
   }
   to.addDifferences(std::span<const uint32_t>(places));
   to.add(std::span<const uint32_t>(words));
 }
 
-/// Appends those of another share.
-void readUsed(Reader& from, uint32_t vertices, UsedWords& used) {
+/// Adds those of a share.
+void readUsed(Reader& from, uint32_t vertices, UsedBits& used) {
   const std::span<const uint32_t> places = from.itemsOfDifferences<uint32_t>(), words = from.items<uint32_t>();
   if (places.size() != words.size()) throw BadSummary();
   for (size_t i = 0; i < places.size(); ++i) {
     if (words[i] == 0 || uint64_t(places[i]) * 32 + uint64_t(std::bit_width(words[i])) > vertices) throw BadSummary();
-    used.push_back({places[i], words[i]});
+    used[places[i]] |= words[i];
   }
 }
 
-/// Numbers what all shares use, in the order of the whole's ids, and notes what of it is here. `used`: of all, in no order.
-void numberUsed(UsedWords used, const ShareExcerpt* excerpt, CutState& state) {
-  sortByKey(used, wholeVertices(state, excerpt) / 32);
+/// Numbers what all shares use, in the order of the whole's ids, and notes what of it is here.
+void numberUsed(const UsedBits& used, const ShareExcerpt* excerpt, CutState& state) {
   SurfaceNumbers& numbers = state.surfaceNumbers.emplace();
-  size_t at = 0;
-  uint32_t word = 0;  // of all shares, that at a place
-  uint64_t place = 0;
-  const auto next = [&] {
+  std::vector<uint32_t> first;  // per word
+  first.reserve(used.size());
+  for (const uint32_t word : used) {
+    first.push_back(numbers.count);
     numbers.count += uint32_t(std::popcount(word));
-    word = 0;
-    place = at < used.size() ? used[at].key : ~uint64_t(0);
-    for (; at < used.size() && used[at].key == place; ++at) word |= used[at].item;
-  };
-  next();
-  for (uint32_t v = 0; v < state.used.size(); ++v) {
-    const uint32_t id = wholeId(state, excerpt, {v});
-    while (place < id / 32) next();
-    const uint32_t bit = 1u << id % 32;
-    if (place > id / 32 || (word & bit) == 0) continue;
-    state.used[v].store(1, std::memory_order_relaxed);
-    numbers.ofUsed.push_back(numbers.count + uint32_t(std::popcount(word & (bit - 1))));
   }
-  while (place != ~uint64_t(0)) next();
+  numbers.ofSurface.assign(state.used.size(), Numbers::kUnused);
+  for (uint32_t v = 0; v < state.used.size(); ++v) {
+    const uint32_t id = wholeId(state, excerpt, {v}), word = used[id / 32], bit = 1u << id % 32;
+    if ((word & bit) == 0) continue;
+    state.used[v].store(1, std::memory_order_relaxed);
+    numbers.ofSurface[{v}] = first[id / 32] + uint32_t(std::popcount(word & (bit - 1)));
+  }
 }
 
 }  // namespace
@@ -263,8 +253,8 @@ std::vector<uint32_t> summarize(const CutState& state, const ShareContext& conte
   const auto head = headOf(context.shareOf, context.cut, wholeVertices(state, context.excerpt));
   to.words.assign(head.begin(), head.end());
   to.add(uint32_t(state.bricks.here.size()));
+  addUsed(state, context.excerpt, to);
   for (const BrickId b : state.bricks.here.ids()) addBrick(state.bricks, b, state.cuts[b], to);
-  addUsed(usedHere(state, context.excerpt), to);
   return std::move(to.words);
 }
 
@@ -288,9 +278,20 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
   BrickCuts cuts;
   cuts.resize(count);
   BrickMemory memory;
-  UsedWords used = usedHere(state, excerpt);
+  UsedBits used((size_t(vertices) + 31) / 32, 0);
   BricksHere here = state.bricks.here;
   for (uint32_t share = 0; share < shareOf.count; ++share) {
+    Reader from(std::span<const uint32_t>(summaries[share]).subspan(kHead), memory.seams);
+    try {
+      uint32_t left = from.number();
+      readUsed(from, vertices, used);
+      if (share != shareOf.index) {
+        for (; left > 0; --left) readBrick(from, layers.of(share), bricks, cuts);
+        if (!from.isAtEnd()) throw BadSummary();
+      }
+    } catch (const BadSummary&) {
+      fail(share);
+    }
     if (share == shareOf.index) {
       here.first = {uint32_t(bricks.size())};
       for (const BrickId b : state.bricks.here.ids()) {
@@ -298,15 +299,6 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
         std::copy(touched.begin(), touched.end(), bricks.wordsOf(bricks.add(state.bricks.keys[b])).begin());
       }
       here.past = {uint32_t(bricks.size())};
-      continue;
-    }
-    Reader from(std::span<const uint32_t>(summaries[share]).subspan(kHead), memory.seams);
-    try {
-      for (uint32_t left = from.number(); left > 0; --left) readBrick(from, layers.of(share), bricks, cuts);
-      readUsed(from, vertices, used);
-      if (!from.isAtEnd()) throw BadSummary();
-    } catch (const BadSummary&) {
-      fail(share);
     }
   }
   for (const BrickId b : state.bricks.here.ids())
@@ -316,7 +308,7 @@ void addSummaries(std::span<const std::vector<uint32_t>> summaries, const ShareC
   bricks.here = here;
   state.bricks = std::move(bricks);
   state.cuts = std::move(cuts);
-  numberUsed(std::move(used), excerpt, state);
+  numberUsed(used, excerpt, state);
 }
 
 }  // namespace mandoline::detail

@@ -17,7 +17,7 @@ const steps = {
     options: { intersections: numbered(Intersections), index: asIs, count: asIs, progress: readFunction },
     run: (bindings, ...given) => callWithMesh(bindings, 'beginShare', ...given),
   },
-  keepPart: { takes: share, options: { progress: readFunction } },
+  keepPart: { takes: share, options: { gridCellRegion: asIs, progress: readFunction } },
   makePart: { takes: share, options: { reuse: asIs } },
   joinParts: {
     takes: { mesh: { kind: 'prepared', otherwise: asIs }, share: asIs, others: asIs },
@@ -150,7 +150,7 @@ export class Lead {
       own = beginShare(mesh, grid, { intersections, index: 0, count, progress });
       const summaries = [own.summary, ...(await Promise.all(begun)).map(required)];
       const made = mates.map((mate) => mate.ask({ summaries }));
-      keepPart(own.share, summaries, { progress });
+      keepPart(own.share, summaries, { gridCellRegion, progress });
       const parts = (await Promise.all(made)).map(required);
       const result = joinParts(mesh, own.share, parts, { gridCellRegion, keep, reuse });
       for (const [i, mate] of mates.entries()) {

@@ -157,6 +157,7 @@ class Harvest {
     uint32_t piece = 0, triFace = 0, cell = 0;
     GridFaceId g{0};
     const uint32_t ny = uint32_t(input_.cells(1));
+    lastOpen_.fill({~0u, 0});
     for (const GridCellId c : stencil_.cells.ids()) {
       triFace += uint32_t(stencil_.triFacesInCell[c].size());
       for (; g.number < stencil_.faces.size() && stencil_.faces[g].cell == c; ++g.number) {
@@ -184,7 +185,10 @@ class Harvest {
     if (stencil_.box.has(other)) {
       const FaceSides& sides = sidesIn(g)[0];  // the grid-face is whole
       const OpenFace open{stencil_.box.indexOf(other), gathered_.components[sides.cells[sides.cells[0] != FaceSides::kNone ? 0 : 1]]};
-      gathered_.openFaces.push_back(open);
+      OpenFace& before = lastOpen_[face.index];
+      const bool isSameRun = open.cell == before.cell + 1 && open.component == before.component && other[0] >> 1 != stencil_.box.first[0];
+      if (!isSameRun) gathered_.openFaces.push_back(open);
+      before = open;
     } else if (input_.inGrid(other)) {
       const uint32_t first = uint32_t(gathered_.boundaryHalves.size());
       for (size_t i = 0; i < halvesIn(g).size(); ++i) {
@@ -334,6 +338,7 @@ class Harvest {
   Gathered& gathered_;
   BrickMemory& memory_;
   BrickCut& out_;
+  std::array<OpenFace, 6> lastOpen_{};  // per side of a cell; the next one may lie beside the same run of untouched cells
 };
 
 }  // namespace

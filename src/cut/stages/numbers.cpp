@@ -11,7 +11,6 @@ namespace {
 class Numberer {
  public:
   Numberer(const CutBricks& cut, Numbers& out) : cut_(cut), vertices_(cut.surface.vertices), cuts_(cut.cuts), seams_(cut.seams), out_(out) {
-    out_.ofSurface.assign(vertices_.size(), Numbers::kUnused);
     out_.ofBrick.resize(cuts_.size());
     out_.faces.resize(cuts_.size());
   }
@@ -46,7 +45,14 @@ class Numberer {
     }
   }
 
-  void numberSurface(const UsedVertices& used, const SurfaceNumbers* ofAll) {
+  void numberSurface(const UsedVertices& used, SurfaceNumbers* ofAll) {
+    if (ofAll) {
+      out_.ofSurface = std::move(ofAll->ofSurface);
+      out_.ofSurface.resize(vertices_.size(), Numbers::kUnused);
+      out_.surfaceVertices = ofAll->count;
+      return;
+    }
+    out_.ofSurface.assign(vertices_.size(), Numbers::kUnused);
     uint32_t next = 0;
     uint32_t* const numbers = out_.ofSurface.data();
     for (uint32_t v = 0; v < used.size(); ++v) {
@@ -54,10 +60,7 @@ class Numberer {
       numbers[v] = isUsed ? next : Numbers::kUnused;
       next += isUsed;
     }
-    for (uint32_t v = 0; v < used.size() && ofAll; ++v) {
-      if (numbers[v] != Numbers::kUnused) numbers[v] = ofAll->ofUsed[numbers[v]];
-    }
-    out_.surfaceVertices = ofAll ? ofAll->count : next;
+    out_.surfaceVertices = next;
   }
 
   void numberOwn(BrickId brick) {
@@ -162,7 +165,7 @@ UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVect
   return used;
 }
 
-Numbers makeNumbers(const CutBricks& cut, const BricksToNumber& bricks, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run) {
+Numbers makeNumbers(const CutBricks& cut, const BricksToNumber& bricks, const UsedVertices& used, SurfaceNumbers* ofAll, Run& run) {
   Numbers numbers;
   Numberer numberer(cut, numbers);
   const std::array<std::function<void()>, 2> both{[&] { numberer.numberRows(); }, [&] { numberer.numberSurface(used, ofAll); }};

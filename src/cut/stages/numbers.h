@@ -40,8 +40,8 @@ UsedVertices findUsed(const Surface& surface, const Bricks& bricks, const IdVect
 
 /// Numbers of such vertices, where several processes give them.
 struct SurfaceNumbers {
-  std::vector<uint32_t> ofUsed;  ///< of those that are used, in order
-  uint32_t count = 0;            ///< of all processes
+  IdVector<VertexId, uint32_t> ofSurface;  ///< as that of Numbers; taken over by them
+  uint32_t count = 0;                      ///< of all processes
 };
 
 struct Numbers {
@@ -81,6 +81,6 @@ struct BricksToNumber {
 };
 
 /// `used`: by all bricks. `ofAll`: null where no other process cuts.
-Numbers makeNumbers(const CutBricks& cut, const BricksToNumber& bricks, const UsedVertices& used, const SurfaceNumbers* ofAll, Run& run);
+Numbers makeNumbers(const CutBricks& cut, const BricksToNumber& bricks, const UsedVertices& used, SurfaceNumbers* ofAll, Run& run);
 
 }  // namespace mandoline::detail

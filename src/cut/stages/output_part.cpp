@@ -120,27 +120,20 @@ class Rooms {
   std::vector<std::function<void()>> tasks_;
 };
 
-/// Those of the vertices of the mesh and its edges that lie in the layers that are cut here.
-std::vector<VertexId> onLayers(const CellLayers& here, const CutVertices& vertices, const std::vector<VertexId>& used) {
-  std::vector<VertexId> on;
-  if (here.first == here.past) return on;
-  on.reserve(used.size());
-  for (const VertexId v : used) {
-    const int32_t z = vertices.slab(v)[2];
-    if (z >= 2 * here.first && z <= 2 * here.past) on.push_back(v);
-  }
-  return on;
-}
-
-/// Their numbers, where no share before has them.
-std::vector<uint32_t> numbersOf(const std::vector<VertexId>& surface, const CutState& state, const Numbers& numbers) {
-  const int32_t first = state.bricks.grid.here.first;
-  std::vector<uint32_t> list;
-  list.reserve(surface.size());
+/// Leaves of vertices of the mesh and its edges those in the layers that are cut here. Gives their numbers, where no share before has them.
+std::vector<uint32_t> keepOnLayers(const CutState& state, const Numbers& numbers, std::vector<VertexId>& surface) {
+  const auto& [first, past] = state.bricks.grid.here;
+  std::vector<uint32_t> list(surface.size());
+  size_t count = 0;
   for (const VertexId v : surface) {
-    const bool isOthers = first > 0 && state.surface.vertices.slab(v)[2] == 2 * first;
-    list.push_back(isOthers ? Numbers::kUnused : numbers.ofSurface[v]);
+    const int32_t z = state.surface.vertices.slab(v)[2];
+    const bool isOthers = first > 0 && z == 2 * first;
+    surface[count] = v;
+    list[count] = isOthers ? Numbers::kUnused : numbers.ofSurface[v];
+    count += first < past && z >= 2 * first && z <= 2 * past;
   }
+  surface.resize(count);
+  list.resize(count);
   return list;
 }
 
@@ -208,13 +201,10 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
   CutPart part;
   CutMesh& out = part.cutMesh;
   out.grid = grid;
-  const std::vector<VertexId> used = listUsed(state.used);
-  std::vector<VertexId> ofShare;
-  if (state.bricks.here.isShare) {
-    ofShare = onLayers(state.bricks.grid.here, state.surface.vertices, used);
-    part.firstVertices = numbersOf(ofShare, state, numbers);
-  }
-  const std::vector<VertexId>& surface = state.bricks.here.isShare ? ofShare : used;
+  std::vector<VertexId> surface = listUsed(state.used);
+  const auto isMade = [&](VertexId v) { return state.surface.vertices.isImplicit(v); };
+  const bool haveMade = input.mesh->hasIntersections() && std::any_of(surface.begin(), surface.end(), isMade);
+  if (state.bricks.here.isShare) part.firstVertices = keepOnLayers(state, numbers, surface);
 
   // One kind after the other, so that what the bricks have of it need not last as long as all of the result.
   constexpr size_t kMuch = size_t(1) << 30, kLargePages = size_t(1) << 20;
@@ -251,8 +241,7 @@ CutPart makePart(const MeshView& mesh, const Grid& grid, CutState& state, Run& r
     if (isMuch) giveBackFreed();
   }
 
-  const auto isMade = [&](VertexId v) { return state.surface.vertices.isImplicit(v); };
-  separate(kept, input.mesh->hasIntersections() && std::any_of(used.begin(), used.end(), isMade), out, run.monitor);
+  separate(kept, haveMade, out, run.monitor);
   part.triFaces = numbers.here.triFaces;
   return part;
 }
