@@ -487,52 +487,75 @@ std::vector<Item> inOrder(const std::map<int64_t, Item>& items) {
   return all;
 }
 
+/// Compares cases of some numbers of processes with the polyMesh of one.
+void compareCases(const std::string& file, const Names& options, const std::vector<int>& numbers) {
+  const TemporaryFolder folder;
+  const std::string one = "one/constant/polyMesh/", pieces = "pieces/constant/polyMesh";
+  Names words = {"cut", file, "-o", folder.path(one), "--report", folder.path("one.txt")};
+  words.insert(words.end(), options.begin(), options.end());
+  REQUIRE(run(folder, words).exitCode == 0);
+  words[3] = folder.path(pieces), words[5] = folder.path("some.txt");
+  for (const int processes : numbers) {
+    CAPTURE(words, processes);
+    const Outcome outcome = runRanks(folder, processes, words);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exitCode == 0);
+    WholeMesh whole;
+    for (int rank = 0; rank < processes; ++rank) whole.add(folder, "pieces/processor" + std::to_string(rank) + "/constant/polyMesh/");
+    CHECK(inOrder(whole.points) == itemsIn(folder, one + "points"));
+    CHECK(inOrder(whole.faces) == facesIn(folder, one + "faces"));
+    CHECK(inOrder(whole.owners) == numbersIn(folder, one + "owner"));
+    CHECK(inOrder(whole.neighbours) == numbersIn(folder, one + "neighbour"));
+    for (const int count : inOrder(whole.cells)) REQUIRE(count == 1);
+    for (const char* count : {"before", "after", "pockets"})
+      CHECK(numbersOf(folder.read("some.txt"), count) == numbersOf(folder.read("one.txt"), count));
+    if (processes == 3) {  // those of a finer case are in the way of a coarser one
+      words[5] = folder.path("two.txt");
+      const Outcome coarser = runRanks(folder, 2, words);
+      words[5] = folder.path("some.txt");
+      CHECK(coarser.exitCode == 2);
+      CHECK(contains(coarser.err, "processor2: is there already, of a case in more parts"));
+      for (int rank = 0; rank < 3; ++rank)
+        CHECK(fs::exists(folder.path("pieces/processor" + std::to_string(rank) + "/constant/polyMesh/points")));
+    }
+    fs::remove_all(folder.path("pieces"));
+  }
+}
+
 }  // namespace
 
 TEST_CASE("Decomposed cases are the polyMesh of one process, by their addressing", "[mpi]") {
   const TemporaryFolder folder;
-  const std::string one = "one/constant/polyMesh/", pieces = "pieces/constant/polyMesh";
   // The ball lies in planes of the grid, and has a hole and a slit; the cube makes vertices.
   mandoline::Mesh mesh = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0, 1.5), shapes::cube(-0.5, 0.5)});
   mesh.triangles.resize(mesh.triangles.size() - 3);
-  const std::string file = meshFile(folder, mesh);
-  // Octree cells of the margin reach into the layers of several processes.
-  const std::pair<std::string, Names> grids[] = {{"2", {"--margin", "0"}},
-                                                 {"5", {"--margin", "0"}},
-                                                 {"8", {"--margin", "0"}},
-                                                 {"6", {"--margin", "1", "--coarsen", "2"}},
-                                                 {"8", {"--margin", "0.8", "--coarsen", "9,0"}},
-                                                 {"5", {"--margin", "0", "--merge", "0.2"}},
-                                                 {"6", {"--margin", "1", "--coarsen", "2", "--merge", "0.2", "--unite-walls", "30"}},
-                                                 {"7", {"--margin", "0.1", "--merge", "0.5", "--coarsen", "9,0", "--simple-cells"}},
-                                                 {"8", {"--margin", "0", "--unite-walls", "60"}}};
-  for (const auto& [cells, options] : grids) {
-    Names words = {"cut", file, "--cells", cells, "-o", folder.path(one)};
-    words.insert(words.end(), options.begin(), options.end());
-    REQUIRE(run(folder, words).exitCode == 0);
-    words[5] = folder.path(pieces);
-    for (const int processes : {1, 2, 3, 4}) {  // of two layers some get nothing
-      CAPTURE(words, processes);
-      const Outcome outcome = runRanks(folder, processes, words);
-      CAPTURE(outcome.err);
-      REQUIRE(outcome.exitCode == 0);
-      WholeMesh whole;
-      for (int rank = 0; rank < processes; ++rank) whole.add(folder, "pieces/processor" + std::to_string(rank) + "/constant/polyMesh/");
-      CHECK(inOrder(whole.points) == itemsIn(folder, one + "points"));
-      CHECK(inOrder(whole.faces) == facesIn(folder, one + "faces"));
-      CHECK(inOrder(whole.owners) == numbersIn(folder, one + "owner"));
-      CHECK(inOrder(whole.neighbours) == numbersIn(folder, one + "neighbour"));
-      for (const int count : inOrder(whole.cells)) REQUIRE(count == 1);
-      if (processes == 3) {  // those of a finer case are in the way of a coarser one
-        const Outcome coarser = runRanks(folder, 2, {"cut", file, "--cells", cells, "-o", folder.path(pieces)});
-        CHECK(coarser.exitCode == 2);
-        CHECK(contains(coarser.err, "processor2: is there already, of a case in more parts"));
-        for (int rank = 0; rank < 3; ++rank)
-          CHECK(fs::exists(folder.path("pieces/processor" + std::to_string(rank) + "/constant/polyMesh/points")));
-      }
-      fs::remove_all(folder.path("pieces"));
-    }
-  }
+  // Octree cells of the margin reach into the layers of several processes; of two layers some get nothing.
+  const Names grids[] = {{"--cells", "2", "--margin", "0"},
+                         {"--cells", "5", "--margin", "0"},
+                         {"--cells", "8", "--margin", "0"},
+                         {"--cells", "6", "--margin", "1", "--coarsen", "2"},
+                         {"--cells", "8", "--margin", "0.8", "--coarsen", "9,0"}};
+  for (const Names& options : grids) compareCases(meshFile(folder, mesh), options, {1, 2, 3, 4});
+}
+
+TEST_CASE("Decomposed cases have the merged cells and united walls of one process", "[mpi]") {
+  const TemporaryFolder folder;
+  const mandoline::Mesh mesh = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0, 1.5), shapes::cube(-0.5, 0.5)});
+  const Names grids[] = {{"--cells", "2", "--margin", "0", "--merge", "0.2"},
+                         {"--cells", "5", "--margin", "0", "--merge", "0.2"},
+                         {"--cells", "6", "--margin", "1", "--coarsen", "2", "--merge", "0.2", "--unite-walls", "30"},
+                         {"--cells", "7", "--margin", "0.1", "--merge", "0.5", "--coarsen", "9,0", "--simple-cells"},
+                         {"--cells", "8", "--margin", "0", "--unite-walls", "60"}};
+  for (const Names& options : grids) compareCases(meshFile(folder, mesh), options, {1, 2, 3, 4});
+}
+
+TEST_CASE("Decomposed cases of a sheet that is in a plane of the grid but for rounding collapse the same flat polygons", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::sheet(3, 3, [](int i, int j) {
+                                      const double x = (i + j) % 2 ? std::nextafter(0.6, 1) : 0.6;
+                                      return shapes::Point{x, 0.4 * i - 0.1, 0.4 * j - 0.1};
+                                    }));
+  compareCases(mesh, {"--box", "0,0,0,1,1,1", "--cells", "5", "--merge", "0.2"}, {2, 3});
 }
 
 TEST_CASE("A disk that is full for one process leaves no case", "[mpi]") {

@@ -155,8 +155,9 @@ void CaseFiles::write(RankComplex complex, const WriteOptions& options) {
   PolyMesh mesh;
   std::optional<detail::PolyFiles> files;
   ranks_.together([&] { polygons.emplace(complex.cutMesh, complex.cells); });
-  RankPolygons sharing(ranks_.comm(), complex);
-  if (areMerged) detail::collapseFlatPolygons(complex.cells, *polygons, sharing);
+  std::optional<RankPolygons> sharing;
+  if (areMerged) sharing.emplace(ranks_.comm(), complex);
+  if (areMerged) detail::collapseFlatPolygons(complex.cells, *polygons, *sharing);
   ranks_.together([&] {
     if (areMerged) detail::dividePolygonsNotSeen(complex.cells, *polygons);
     mesh = ownMesh(complex, *polygons, options, ranks_.rank());
@@ -165,7 +166,7 @@ void CaseFiles::write(RankComplex complex, const WriteOptions& options) {
     files.emplace(detail::PolyFiles{complex.cells, *polygons, mesh});
     detail::countFaces(*files);
   });
-  if (areMerged) files->moved = detail::movedOffCentroids(complex.cells, *polygons, sharing);
+  if (areMerged) files->moved = detail::movedOffCentroids(complex.cells, *polygons, *sharing);
   addZones(complex, mesh);
   const CaseNumbers numbers = caseNumbers(ranks_.comm(), complex, *files);
   ranks_.together([&] {
