@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { octahedronFiles } from './mesh_files.mjs';
-import { dataOf, enter, eventually, isReady, shows, slideTo, startSite } from './page_helpers.mjs';
+import { dataOf, enter, eventually, isReady, shows, slideTo, startSite, textOf } from './page_helpers.mjs';
 
 const site = await startSite({ files: octahedronFiles });
 after(() => site.close());
@@ -75,6 +75,20 @@ test('take the steps of a slider as one, and the camera with what it looks at', 
   await eventually(async () => assert.equal(await page.locator('#slice-x').isChecked(), true));
   assert.ok(page.url().includes(settled), `${page.url()} instead of ${settled}`);
   assert.match(page.url(), /camera=/);
+});
+
+test('bring back a file that was opened, also after another one of its name that could not be read', async (t) => {
+  const page = await site.open(t, 'mesh=wedge&n=4');
+  const open = (content) =>
+    page.locator('#file').setInputFiles({ name: 'octahedron.obj', mimeType: 'text/plain', buffer: Buffer.from(content) });
+  await open(octahedronFiles['octahedron.obj']);
+  await hasUrl(page, /file=octahedron\.obj/);
+  await open('v 0 0 0');
+  await eventually(async () => assert.match(await textOf(page, '#alerts'), /can't be read/));
+  await openGallery(page, 'claw');
+  await page.goBack();
+  await shows(page, '#mesh-line', { name: 'octahedron.obj' });
+  assert.equal(await isReady(page), 'ready');
 });
 
 test('bring back a file that was opened, and what was loaded from an address', async (t) => {

@@ -79,8 +79,7 @@ export class App {
   /** Loads a mesh and cuts it, with a file's bytes. If it can't be loaded, the page keeps the previous one. */
   async open(source: Source, bytes?: ArrayBuffer): Promise<void> {
     await this.work.during(async () => {
-      if (source.kind === 'file' && bytes) this.meshes.keepFile(source.name, bytes);
-      const outcome = await this.meshes.load(source);
+      const outcome = await this.meshes.load(source, bytes && new Blob([bytes]));
       if (outcome === 'failed') await this.cutAfterAll();
       if (outcome !== 'loaded') return;
       this.fitNext = true;

@@ -1,6 +1,6 @@
 // Which mesh is loaded, and the files that meshes came from.
 import { isAbort } from '../model/failure';
-import type { Engine, MeshInfo } from '../model/engine';
+import type { Engine } from '../model/engine';
 import type { Source } from '../model/settings';
 import { asPageError } from './failure';
 import type { State } from './state';
@@ -17,23 +17,29 @@ export class Meshes {
     private readonly work: Work,
   ) {}
 
-  keepFile(name: string, bytes: ArrayBuffer): void {
-    this.files.set(name, new Blob([bytes]));
-  }
-
   /** Files can be opened again as long as the page is there. */
   canOpen(source: Source): boolean {
     return source.kind !== 'file' || this.files.has(source.name);
   }
 
-  /** Failures are shown in the end; the outcome is "superseded" if a newer mesh was asked for meanwhile. */
-  load(source: Source): Promise<'loaded' | 'failed' | 'cancelled' | 'superseded'> {
+  private fileOf(source: Source): Blob | undefined {
+    return source.kind === 'file' ? this.files.get(source.name) : undefined;
+  }
+
+  /**
+   * Failures are shown in the end; the outcome is "superseded" if a newer mesh was asked for meanwhile. `file`: what is opened for the first
+   * time. One that can't be read doesn't take the place of an earlier one of its name.
+   */
+  load(source: Source, file = this.fileOf(source)): Promise<'loaded' | 'failed' | 'cancelled' | 'superseded'> {
     const load = ++this.loads;
     const isOld = () => load !== this.loads;
     return this.work.doing('loading', async () => {
       try {
-        const mesh = await this.fetch(source, isOld);
-        if (!mesh || isOld()) return 'superseded';
+        const bytes = await file?.arrayBuffer();
+        if (isOld()) return 'superseded'; // no longer wanted by the time that its file has been read
+        const mesh = await this.engine.load(source, bytes);
+        if (isOld()) return 'superseded';
+        if (file && source.kind === 'file') this.files.set(source.name, file);
         this.state.mesh.value = mesh;
         return 'loaded';
       } catch (error) {
@@ -44,11 +50,5 @@ export class Meshes {
         return 'failed';
       }
     });
-  }
-
-  /** Null if it is no longer wanted by the time that its file has been read. */
-  private async fetch(source: Source, isOld: () => boolean): Promise<MeshInfo | null> {
-    const bytes = source.kind === 'file' ? await this.files.get(source.name)?.arrayBuffer() : undefined;
-    return isOld() ? null : this.engine.load(source, bytes);
   }
 }
