@@ -237,6 +237,23 @@ TEST_CASE("measure: a face without measurable area has no invalid numbers", "[me
   }
 }
 
+TEST_CASE("measure: a face that rounding leaves without area has the normal of its triangle", "[measure]") {
+  // The second triangle cuts off a corner of the first by less than a rounding: both new vertices of the corner are rounded to one place.
+  const double more = 1 + 0x1p-52;
+  const Mesh mesh = shapes::merged(
+      {shapes::triangle({1, 1, 1}, {3, 2, 1.5}, {3, 2.125, 0.5}), shapes::triangle({1, 13, 1}, {more, -3, -15}, {more, -3, 17})});
+  const Measured m = measured(mesh, Grid::box({-20, -20, -20}, {20, 20, 20}, {1, 1, 1}));
+  const double expected[3] = {-1.0625, 2, 0.25}, length = std::sqrt(1.0625 * 1.0625 + 4.0625);
+  size_t without = 0, wrong = 0;
+  for (size_t f = 0; f < m.mesh.faceCount(); ++f) {
+    if (m.mesh.faceTriangle[f] != 0) continue;
+    without += m.measures.faceArea[f] == 0;
+    for (size_t d = 0; d < 3; ++d) wrong += !(std::fabs(m.measures.faceNormal[3 * f + d] - expected[d] / length) < 1e-12);
+  }
+  CHECK(without == 1);
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("measure: cut-edges are unique, ascending and those of the loops", "[measure]") {
   const Measured m = measured(shapes::noisySphere({1.5, 1.5, 1.5}, 1.2, 0.1, 2), unitGrid(3));
   const CutEdges edges = cutEdges(m.input, m.mesh);

@@ -107,7 +107,7 @@ class Measuring {
     return lie;
   }
 
-  /// A vector along a face's normal: that of its triangle, unless the triangle's corners were moved without trace (see Places::checked).
+  /// A vector along a face's normal: that of its triangle, unless rounding has moved vertices off its plane and left the face an area.
   Vector<DoubleDouble> normalOf(size_t face) const {
     if (cutMesh_.faceTriangle[face] < 0) {
       Vector<DoubleDouble> normal;
@@ -115,7 +115,10 @@ class Measuring {
       return normal;
     }
     const Vector<DoubleDouble> normal = places_.triangleNormal(size_t(cutMesh_.faceTriangle[face]));
-    return lieInPlane(face, unit(normal)) ? normal : vectorArea(face);
+    if (lieInPlane(face, unit(normal))) return normal;
+    const Vector<DoubleDouble> area = vectorArea(face);
+    const bool hasArea = area[0].high != 0 || area[1].high != 0 || area[2].high != 0;
+    return hasArea ? area : normal;
   }
 
   static Vector<double> unit(const Vector<DoubleDouble>& v) {
