@@ -1,5 +1,5 @@
 // Random coordinates and points that are hard for predicates: on a lattice, where coincidences are exact and common; rounded onto lines
-// and planes, which they miss by little; and at both ends of the range that the cutter scales its input to (see cut/input.cpp).
+// and planes, which they miss by little; and at both ends of the range that the cutter scales its input to (see grid/scaled_space.h).
 #pragma once
 
 #include <cmath>

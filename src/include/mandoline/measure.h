@@ -7,7 +7,7 @@
 namespace MANDOLINE_API mandoline {
 
 /// All in world units. Computed from what each vertex comes from (vertexParents), in coordinates local to each cell, so that the relative
-/// error is small for a tiny cell, too.
+/// error is small for a tiny cell, too. Lengths should be from 1e-70 to 1e70: of others, products of up to four underflow, or overflow.
 struct Measures {
   std::vector<double> faceArea;      ///< per face
   std::vector<double> faceNormal;    ///< 3 per face, unit
