@@ -2,6 +2,7 @@
 #include "io/json_members.h"
 #include "io/selection.h"
 #include "mesh/run_call.h"
+#include "operators/require_cut_mesh.h"
 
 namespace mandoline {
 namespace detail {
