@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
 
 #include "base/parallel.h"
-#include "cli/mpi/flow/petsc_solver.h"
+#include "cli/mpi/flow/rank_system.h"
 #include "cli/mpi/flow/rank_wind.h"
 #include "operators/measure/vector.h"
 #include "operators/require_cut_mesh.h"
@@ -15,55 +13,45 @@
 #include "physics/correction_passes.h"
 #include "physics/derivatives.h"
 #include "physics/far_field.h"
-#include "physics/system_matrix.h"
 
 namespace mandoline::cli {
 namespace {
 
 using Vector = std::vector<double>;
 
-/// The system of the whole, of which each process has the rows of its own cells.
+/// Solves for phi, with corrections and in the far field, as solveFlow() does it, but each pass solves as well as the last.
 class RankSolver {
  public:
-  RankSolver(detail::Communicator& comm, const RankComplex& complex, const Halo& halo, const RankWind& wind)
-      : comm_(comm), complex_(complex), cells_(complex.cells), halo_(halo), components_(wind.components) {
-    for (uint32_t c = 0; c < cells_.cellCount(); ++c) {
-      if (isOwn(c)) own_.push_back(c);
-    }
-    comm.together("flow", [&] {
-      problem_.boundary = wind.boundary;
-      system_ = poissonSystem(cells_, problem_);
-      matrix_.emplace(system_.matrix, added_);
-      terms_ = physics::boundaryTerms(cells_, problem_);
-    });
-    phi_.assign(cells_.cellCount(), 0);
-    added_.assign(cells_.cellCount(), 0);
-    isActive_ = sums([&](uint32_t c) { return std::fabs(system_.rhs[c]); });
-    balance();
+  RankSolver(detail::Communicator& comm, const RankComplex& complex, const Halo& halo, const RankWind& wind, const RankFlowOptions& options)
+      : comm_(comm),
+        cells_(complex.cells),
+        options_(options),
+        problem_(problemOf(wind)),
+        system_(comm, complex, halo, wind.components, problem_) {
+    comm.together("flow", [&] { terms_ = physics::boundaryTerms(cells_, problem_); });
+    system_.balance();
   }
 
-  void solve(const RankFlowOptions& options) {
-    norm_ = std::sqrt(sum([&](uint32_t c) { return square(system_.rhs[c]); }));
+  void solve() {
+    const bool flows = system_.takeNorm();
     if (!flow_.residuals.empty()) flow_.residuals.pop_back();
-    flow_.residuals.push_back(norm_ > 0 ? residual() : 0);
-    if (norm_ > 0) {
-      if (!solver_) solver_.emplace(comm_.handle(), rows(), options.onIteration);
-      iterate(kGoal);
-      if (options.corrections > 0 && flow_.status == SolveStatus::converged) correct(options.corrections);
+    flow_.residuals.push_back(flows ? system_.residual() : 0);
+    if (flows) {
+      iterate();
+      if (options_.corrections > 0 && flow_.status == SolveStatus::converged) correct();
     }
-    setMeans();
+    system_.setMeans();
   }
 
-  /// As solveFlow() does it, but each pass solves as well as the last.
-  void solveFarField(const physics::FarField& farField, const RankFlowOptions& options) {
+  void solveFarField(const physics::FarField& farField) {
     using Next = physics::FarFieldPasses::Next;
     physics::FarFieldPasses passes(farField, problem_.boundary.value);
-    solve(options);
+    solve();
     while (flow_.status == SolveStatus::converged) {
       const Next next = passes.add(withFaceVelocities(), problem_.boundary.value);
       if (next == Next::limit) flow_.status = SolveStatus::iterationLimit;
       if (next != Next::pass) break;
-      solveNext(options);
+      solveNext();
     }
     for (size_t b = 0; b < passes.ofDipoles().size(); ++b) {
       const uint32_t h = problem_.boundary.halfFaces[b];
@@ -76,9 +64,9 @@ class RankSolver {
     RankFlow result;
     for (size_t i = 0; i < corrections_.size(); ++i) result.corrections.push_back({corrected_[i], corrections_[i]});
     result.onSides = std::move(onSides_);
-    result.iterations = iterations_;
+    result.iterations = system_.iterations();
     result.flow = std::move(flow_);
-    result.flow.phi = std::move(phi_);
+    result.flow.phi = std::move(system_.phi);
     return result;
   }
   /// That of the last pass.
@@ -87,101 +75,16 @@ class RankSolver {
  private:
   static constexpr double kGoal = 1e-14;
 
-  static double square(double x) { return x * x; }
-  bool isOwn(uint32_t cell) const { return complex_.cellRanks[cell] == comm_.rank(); }
-
-  template <class Value>
-  double sum(const Value& value) {
-    double all = 0;
-    for (const uint32_t c : own_) all += value(c);
-    return comm_.reduce(all, MPI_SUM);
+  static PoissonProblem problemOf(const RankWind& wind) {
+    PoissonProblem problem;
+    problem.boundary = wind.boundary;
+    return problem;
   }
 
-  /// Per component, over the cells of all processes.
-  template <class Value>
-  Vector sums(const Value& value) {
-    Vector all(components_.count);
-    for (const uint32_t c : own_) all[components_.cellComponent[c]] += value(c);
-    comm_.reduce(all, MPI_SUM);
-    return all;
-  }
+  void iterate() { flow_.status = system_.solve(kGoal, options_.onIteration, flow_.residuals); }
 
-  /// Takes away what rounding leaves of the sum of the right side of each component, evenly by volume.
-  void balance() {
-    const Vector volumes = sums([&](uint32_t c) { return cells_.cellVolume[c]; });
-    constexpr int kPasses = 3;  // each leaves a rounding error of the excess that it subtracts
-    for (int pass = 0; pass < kPasses; ++pass) {
-      const Vector excess = sums([&](uint32_t c) { return system_.rhs[c]; });
-      for (const uint32_t c : own_) {
-        const uint32_t r = components_.cellComponent[c];
-        if (isActive_[r] > 0 && volumes[r] > 0) system_.rhs[c] -= excess[r] * (cells_.cellVolume[c] / volumes[r]);
-      }
-    }
-  }
-
-  /// Rows of cells that nothing flows through say that phi is 0 there.
-  RankRows rows() {
-    RankRows result;
-    const std::vector<uint64_t> counts = comm_.gatherAll(uint64_t(own_.size()));
-    result.all = int64_t(std::accumulate(counts.begin(), counts.end(), uint64_t(0)));
-    std::vector<int64_t> rowOf(cells_.cellCount(), 0);
-    int64_t next = int64_t(std::accumulate(counts.begin(), counts.begin() + comm_.rank(), uint64_t(0)));
-    for (const uint32_t c : own_) rowOf[c] = next++;
-    halo_.update(rowOf);
-    std::vector<int32_t> vectorOf(components_.count, -1);
-    for (uint32_t r = 0; r < components_.count; ++r) {
-      if (isActive_[r] > 0) vectorOf[r] = result.nullCount++;
-    }
-    const CsrMatrix& matrix = system_.matrix;
-    result.rowOffsets.push_back(0);
-    for (const uint32_t c : own_) {
-      result.nullVectors.push_back(vectorOf[components_.cellComponent[c]]);
-      for (auto e = size_t(matrix.rowOffsets[c]); e < size_t(matrix.rowOffsets[c + 1]); ++e) {
-        const size_t column = size_t(matrix.entryColumns[e]);
-        if (result.nullVectors.back() < 0 && column != c) continue;
-        result.columns.push_back(rowOf[column]);
-        result.values.push_back(result.nullVectors.back() < 0 ? 1 : matrix.entryValues[e]);
-      }
-      if (result.nullVectors.back() < 0 && int64_t(result.columns.size()) == result.rowOffsets.back()) {
-        result.columns.push_back(rowOf[c]);
-        result.values.push_back(1);
-      }
-      result.rowOffsets.push_back(int64_t(result.columns.size()));
-    }
-    return result;
-  }
-
-  double residual() {
-    return std::sqrt(sum([&](uint32_t c) { return square(system_.rhs[c] - matrix_->row(phi_, c)); })) / norm_;
-  }
-
-  /// Solves for what the residual lacks, again and again: PETSc's own residual drifts away from that of phi, which is computed from
-  /// differences.
-  void iterate(double goal) {
-    constexpr double kTolerance = 1e-10, kPart = 1e-9;
-    constexpr int kMostPasses = 8, kMostIterations = 500;
-    Vector r(own_.size()), step, best = phi_;
-    for (int pass = 0; pass < kMostPasses; ++pass) {
-      for (size_t i = 0; i < own_.size(); ++i) r[i] = system_.rhs[own_[i]] - matrix_->row(phi_, own_[i]);
-      iterations_ += solver_->solve(r, kPart, kMostIterations, step);
-      for (size_t i = 0; i < own_.size(); ++i) phi_[own_[i]] += step[i];
-      halo_.update(phi_);
-      sweep();
-      const double found = residual();
-      const bool isBetter = found < flow_.residuals.back();
-      if (!isBetter) break;
-      best = phi_;
-      const bool isSlow = !(found < flow_.residuals.back() / 2);
-      flow_.residuals.push_back(found);
-      if (isSlow || found <= goal) break;
-    }
-    phi_ = best;
-    flow_.status = flow_.residuals.back() <= kTolerance ? SolveStatus::converged : SolveStatus::iterationLimit;
-  }
-
-  /// As a solution by one process does it, but each pass solves as well as the last.
-  void correct(int most) {
-    const Vector rhs = system_.rhs, plain = phi_;
+  void correct() {
+    const Vector rhs = system_.rhs, plain = system_.phi;
     const std::vector<double> residuals = flow_.residuals;
     const RunOptions quiet{1, {}};
     detail::Monitor unheard(quiet, 1);
@@ -194,25 +97,25 @@ class RankSolver {
       double sum = 0;
       for (size_t i = 0; i < a.size(); ++i) {
         const uint32_t f = corrected_[i];
-        if (isOwn(uint32_t(cells_.faceCells[2 * size_t(f)]))) sum += a[i] * b[i] * cells_.faceArea[f];
+        if (system_.isOwn(uint32_t(cells_.faceCells[2 * size_t(f)]))) sum += a[i] * b[i] * cells_.faceArea[f];
       }
       return comm_.reduce(sum, MPI_SUM);
     };
     physics::CorrectionPasses passes(corrected_.size(), 0x1p10 * kGoal * kGoal * squareOfPlain(), false);
-    for (int pass = 0; pass < most; ++pass) {
+    for (int pass = 0; pass < options_.corrections; ++pass) {
       Vector found;
-      comm_.together("flow", [&] { found = differentiator_->corrections(*fitter_, phi_, unheard); });
+      comm_.together("flow", [&] { found = differentiator_->corrections(*fitter_, system_.phi, unheard); });
       if (!passes.add(std::move(found), product)) return;
       corrections_ = passes.next();
       system_.rhs = rhs;
       differentiator_->addFlows(corrections_, system_.rhs);
-      flow_.residuals.push_back(residual());
-      if (flow_.residuals.back() > kGoal) iterate(kGoal);
+      flow_.residuals.push_back(system_.residual());
+      if (flow_.residuals.back() > kGoal) iterate();
       if (flow_.status != SolveStatus::converged) break;
     }
     if (flow_.status == SolveStatus::converged) return;
     corrections_.clear();  // better a solution of first order than none
-    system_.rhs = rhs, phi_ = plain;
+    system_.rhs = rhs, system_.phi = plain;
     flow_.residuals = residuals;
     flow_.status = SolveStatus::converged;
   }
@@ -232,8 +135,8 @@ class RankSolver {
     differentiate();
     Flow flow;
     comm_.together("flow", [&] {
-      flow.phi = phi_;
-      flow.faceVelocity = differentiator_->plain(phi_, 1);
+      flow.phi = system_.phi;
+      flow.faceVelocity = differentiator_->plain(system_.phi, 1);
       flow.faceVelocity.resize(cells_.faceCount());
       for (size_t i = 0; i < corrections_.size(); ++i) flow.faceVelocity[corrected_[i]] += corrections_[i];
       physics::setOnBoundary(problem_.boundary, flow.faceVelocity);
@@ -242,72 +145,37 @@ class RankSolver {
   }
 
   /// With other values of the boundary; goes on from phi.
-  void solveNext(const RankFlowOptions& options) {
+  void solveNext() {
     comm_.together("flow", [&] { system_.rhs = physics::rightSide(cells_, problem_.boundary, terms_, {{}, problem_.boundary.value, {}}); });
-    balance();
+    system_.balance();
     corrections_.clear();
-    solve(options);
+    solve();
   }
 
   double squareOfPlain() {
-    const Vector plain = differentiator_->plain(phi_, 1);
+    const Vector plain = differentiator_->plain(system_.phi, 1);
     double sum = 0;
     for (size_t f = 0; f < cells_.faceCount(); ++f) {
       const int32_t cell = cells_.faceCells[2 * f];
-      if (cell >= 0 && isOwn(uint32_t(cell))) sum += plain[f] * plain[f] * cells_.faceArea[f];
+      if (cell >= 0 && system_.isOwn(uint32_t(cell))) sum += plain[f] * plain[f] * cells_.faceArea[f];
     }
     return comm_.reduce(sum, MPI_SUM);
   }
 
-  /// Gauss-Seidel, forwards and backwards: the smallest cells hardly show in a residual; this adjusts them to their neighbours.
-  void sweep() {
-    const CsrMatrix& matrix = system_.matrix;
-    for (size_t k = 0; k < 2 * own_.size(); ++k) {
-      const size_t c = own_[k < own_.size() ? k : 2 * own_.size() - 1 - k];
-      double diagonal = 0, sum = system_.rhs[c];
-      for (auto e = size_t(matrix.rowOffsets[c]); e < size_t(matrix.rowOffsets[c + 1]); ++e) {
-        const auto j = size_t(matrix.entryColumns[e]);
-        if (j == c) continue;
-        diagonal -= matrix.entryValues[e];
-        sum -= matrix.entryValues[e] * (phi_[j] - phi_[c]);
-      }
-      if (diagonal > 0 && isActive_[components_.cellComponent[c]] > 0) phi_[c] += sum / diagonal;
-    }
-    halo_.update(phi_);
-  }
-
-  /// Phi has the mean zero by volume in each component.
-  void setMeans() {
-    const Vector volumes = sums([&](uint32_t c) { return cells_.cellVolume[c]; });
-    const Vector means = sums([&](uint32_t c) { return cells_.cellVolume[c] * phi_[c]; });
-    for (size_t c = 0; c < phi_.size(); ++c) {
-      const uint32_t r = components_.cellComponent[c];
-      if (volumes[r] > 0) phi_[c] -= means[r] / volumes[r];
-    }
-  }
-
   detail::Communicator& comm_;
-  const RankComplex& complex_;
   const CellComplex& cells_;
-  const Halo& halo_;
-  const CellComponents& components_;
-  std::vector<uint32_t> own_;
-  PoissonSystem system_;  // also of ghosts, whose rows are not complete
+  const RankFlowOptions& options_;
   PoissonProblem problem_;
-  std::optional<physics::SystemMatrix> matrix_;
-  std::optional<PetscSolver> solver_;
+  RankSystem system_;
   std::vector<physics::BoundaryTerm> terms_;
   physics::DualEdges dual_;
   detail::Csr<uint32_t> edges_;
   std::optional<physics::Differentiator> differentiator_;  // once it is needed
   std::optional<physics::CellFitter> fitter_;              // likewise
-  double norm_ = 0;                                        // of the right side without corrections
   Flow flow_;
-  Vector phi_, added_, corrections_;
+  Vector corrections_;
   std::vector<uint32_t> corrected_;  // faces
   std::vector<physics::FaceCorrection> onSides_;
-  Vector isActive_;  // per component: more than 0 where something flows
-  int iterations_ = 0;
 };
 
 /// Of the flow through the faces of cells, of a wind of length 1.
@@ -340,8 +208,7 @@ double imbalanceOf(detail::Communicator& comm, const RankComplex& complex, const
   return largest > 0 ? worst / largest : 0;
 }
 
-void solveInFarField(detail::Communicator& comm, const RankComplex& complex, const RankWind& through, const RankFlowOptions& options,
-                     RankSolver& solver) {
+void solveInFarField(detail::Communicator& comm, const RankComplex& complex, const RankWind& through, RankSolver& solver) {
   physics::FarFieldShare share;
   comm.together("flow", [&] {
     share.parts = through.parts;
@@ -354,9 +221,9 @@ void solveInFarField(detail::Communicator& comm, const RankComplex& complex, con
   });
   const physics::FarField farField(complex.cells, through.boundary, share);
   if (farField.hasDipoles())
-    solver.solveFarField(farField, options);
+    solver.solveFarField(farField);
   else
-    solver.solve(options);
+    solver.solve();
 }
 
 }  // namespace
@@ -368,11 +235,11 @@ RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, c
   for (size_t d = 0; d < 3 && length > 0; ++d) unit[d] = wind[d] / length;
   const Halo halo(comm, complex);
   const RankWind through = rankWind(comm, complex, halo, unit);
-  RankSolver solver(comm, complex, halo, through);
+  RankSolver solver(comm, complex, halo, through, options);
   if (options.farField)
-    solveInFarField(comm, complex, through, options, solver);
+    solveInFarField(comm, complex, through, solver);
   else
-    solver.solve(options);
+    solver.solve();
   RankFlow result = solver.take();
   result.imbalance = imbalanceOf(comm, complex, solver.problem().boundary, result);
   result.flow.wind = wind;
