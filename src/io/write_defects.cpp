@@ -8,7 +8,10 @@ namespace {
 
 using namespace detail;
 
-void requireVertices(const MeshView& mesh, const MeshInfo& info) {
+void requireSameMesh(const MeshView& mesh, const MeshInfo& info) {
+  if (info.vertices != mesh.vertexCount() || info.triangles != mesh.triangleCount())
+    operators::refuse("The defects are not those of this mesh: that one had " + std::to_string(info.vertices) + " vertices and " +
+                      std::to_string(info.triangles) + " triangles.");
   for (const uint32_t v : info.defectVertices) {
     if (v >= mesh.vertexCount())
       operators::refuse("The defects are not those of this mesh: there is no vertex " + std::to_string(v) + ".", v);
@@ -18,7 +21,7 @@ void requireVertices(const MeshView& mesh, const MeshInfo& info) {
 }  // namespace
 
 void writeDefects(const Sink& sink, const MeshView& mesh, const MeshInfo& info, const RunOptions& options) {
-  requireVertices(mesh, info);
+  requireSameMesh(mesh, info);
   runCall("writing", [&] {
     Meter meter(sink, options);
     meter.beginStage("write", 0, info.defectCount());

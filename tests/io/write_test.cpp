@@ -217,6 +217,11 @@ TEST_CASE("Writers refuse regions and meshes that don't fit", "[io]") {
     CHECK(write({{0, 0, 0}, {0, 0, 0, 0, 0, 1}}) == Refusal{Status::badIndex, 1});
     CHECK(write({{0, 0, 0, 1}, {}}) == Refusal{Status::badArrays, -1});
   }
+  Mesh open = cube;
+  open.triangles.resize(33);
+  const mandoline::MeshInfo info = mandoline::inspect(open);
+  CHECK(refusal([&] { writeDefects(nowhere, open, info); }) == Refusal{Status::ok, -1});
+  CHECK(refusal([&] { writeDefects(nowhere, cube, info); }) == Refusal{Status::badArgument, -1});  // which has the same vertices
 }
 
 TEST_CASE("Writing shows progress, and cancels without leaving a file", "[io]") {

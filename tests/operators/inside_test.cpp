@@ -174,6 +174,9 @@ TEST_CASE("generalized winding numbers are sums of solid angles", "[inside]") {
   compareWithBruteForce(scaled(withoutEvery(sphere, 3), {1e150, 1e150, 1e150}), 30);
   CHECK(generalizedWindingNumbers(sphere, std::vector<double>{1, 2, 3})[0] == Approx(1).epsilon(1e-12));
   CHECK(refusal([&] { generalizedWindingNumbers(sphere, std::vector<double>{1, 2}); }).first == Status::badArgument);
+  Mesh bad = sphere;
+  bad.triangles[7] = 9999;
+  CHECK(refusal([&] { generalizedWindingNumbers(bad, std::vector<double>{1, 2, 3}); }) == std::pair{Status::badIndex, int64_t(2)});
 }
 
 TEST_CASE("a point on a triangle gets the mean of its sides", "[inside]") {

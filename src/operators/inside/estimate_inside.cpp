@@ -4,6 +4,7 @@
 #include "base/csr.h"
 #include "mandoline/coarsen.h"
 #include "mesh/fingerprints.h"
+#include "mesh/require_arrays.h"
 #include "mesh/run_call.h"
 #include "operators/cut_input.h"
 #include "operators/inside/cell_samples.h"
@@ -292,9 +293,7 @@ CutMesh estimateInside(const MeshView& mesh, const CutMesh& cutMesh, const Estim
 
 std::vector<double> generalizedWindingNumbers(const MeshView& mesh, std::span<const double> points, const RunOptions& options) {
   if (points.size() % 3 != 0) refuse("The number of coordinates is not a multiple of 3.");
-  for (const uint32_t v : mesh.triangles) {
-    if (v >= mesh.vertexCount()) refuse("A triangle refers to a vertex that does not exist.", v);
-  }
+  detail::requireArrays(mesh);
   return detail::runCall("sum of solid angles", [&] {
     detail::Monitor monitor(options, 1);
     monitor.beginStage("insideness", 0);
