@@ -161,5 +161,5 @@ test('wrong arguments', () => {
   refused(() => mandoline.insideRegions(cutMesh, { rule: 'even' }), 'badArgument', /^options\.rule must be "positive", "nonZero" or "odd"/);
   refused(() => mandoline.estimateInside(cube, cutMesh), 'badArgument', /^The mesh is not the one/);
   refused(() => mandoline.generalizedWindingNumbers(cube, [0, 1]), 'badArgument', /^points must have three numbers per point/);
-  refused(() => mandoline.generalizedWindingNumbers({ ...cube, triangles: [0, 1, 99] }, [0, 1, 2]), 'badIndex', /^Triangle 0 refers to vertex 99/);
+  refused(() => mandoline.generalizedWindingNumbers({ ...cube, triangles: [0, 1, 99] }, [0, 1, 2]), 'badIndex', /^Triangle 0 refers to/);
 });
