@@ -1,11 +1,11 @@
-#include "mandoline/cut_share.h"
-
+#include <numeric>
 #include <string>
 
 #include "base/large_array.h"
 #include "cut/driver.h"
 #include "cut/share_summary.h"
 #include "cut/stages/input.h"
+#include "mandoline/cut_share.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
@@ -18,6 +18,18 @@ void requireShare(const ShareOf& shareOf) {
   if (shareOf.index < shareOf.count) return;
   const std::string message = "There is no share " + std::to_string(shareOf.index) + ": there are " + std::to_string(shareOf.count) + ".";
   throw Failure{{Status::badArgument, int64_t(shareOf.index), -1, message}};
+}
+
+/// What the first share may have more of work than others: it waits for their parts, which take this fraction of a share to be copied and
+/// sent, as measured for workers of a page.
+constexpr uint64_t kSending = 20;
+void leaveToFirst(std::vector<uint64_t>& work, uint32_t count) {
+  uint64_t left = std::accumulate(work.begin(), work.end(), uint64_t(0)) / count / kSending;
+  for (uint64_t& ofLayer : work) {
+    const uint64_t less = std::min(ofLayer, left);
+    ofLayer -= less;
+    left -= less;
+  }
 }
 
 }  // namespace
@@ -64,7 +76,9 @@ struct CutShare::Data {
   }
 
   void takeShare(TakeExcerpt* takeExcerpt) {
-    layers.emplace(state->surface.input, workOfLayers(state->surface.input), shareOf.count);
+    std::vector<uint64_t> work = workOfLayers(state->surface.input);
+    if (!takeExcerpt) leaveToFirst(work, shareOf.count);
+    layers.emplace(state->surface.input, work, shareOf.count);
     takeLayers();
     if (!takeExcerpt) return takeSurface(*state);
     excerpt = takeExcerpt(mesh->view(), *state);

@@ -131,6 +131,15 @@ TEST_CASE("What shares tell each other takes few bytes for each of their cut-cel
   CHECK(words * sizeof(uint32_t) < 20 * cut(prepared, grid).mesh.cellCount());
 }
 
+TEST_CASE("The first share, which waits for what others send, has a little more to cut than they have", "[shares]") {
+  const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 5);
+  const Grid grid = Grid::around(mesh, 100);
+  const auto [first, past] = CutShare(prepare(mesh).mesh, grid, {0, 2}).layers();
+  CHECK(first == 0);
+  CHECK(2 * past > grid.cells(2));
+  CHECK(20 * past < 11 * grid.cells(2));
+}
+
 TEST_CASE("A summary of another share that ends too early, or goes on, is refused", "[shares]") {
   const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 1);
   const PreparedMesh prepared = prepare(mesh).mesh;
