@@ -1,3 +1,5 @@
+#include "mandoline/cut_share.h"
+
 #include <numeric>
 #include <string>
 
@@ -5,7 +7,6 @@
 #include "cut/driver.h"
 #include "cut/share_summary.h"
 #include "cut/stages/input.h"
-#include "mandoline/cut_share.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
