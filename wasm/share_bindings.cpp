@@ -14,7 +14,6 @@ constexpr int kCutStages = 6;
 /// One share, which stays here from step to step, with the part that it made.
 struct KeptShare {
   CutShare share;
-  size_t triangles;  ///< of the mesh
   CutStats prepared;
   CutPart part;
   std::vector<int32_t> gridCellRegion;
@@ -40,8 +39,7 @@ val beginShare(const val& mesh, const val& grid, const val& options) {
     const ShareOf shareOf{options["index"].as<uint32_t>(), options["count"].as<uint32_t>()};
     CutShare share(prepared, readGrid(grid, prepared.mesh()), shareOf, {1, progressBetween(options, stats.stages.size(), 0)});
     const val summary = toArray(share.summary());
-    KeptShare kept{std::move(share), prepared.mesh().triangleCount(), std::move(stats), {}, {}};
-    return success(object({{"share", val(std::move(kept))}, {"summary", summary}}));
+    return success(object({{"share", val(KeptShare{std::move(share), std::move(stats), {}, {}})}, {"summary", summary}}));
   });
 }
 
@@ -55,8 +53,7 @@ CutPart partOf(KeptShare& kept, const val& summaries, const val& options) {
 val keepPart(KeptShare& kept, const val& summaries, const val& options) {
   return guarded([&] {
     kept.part = partOf(kept, summaries, options);
-    if (options["gridCellRegion"].as<bool>())
-      kept.gridCellRegion = kept.share.common(std::vector<uint8_t>(kept.triangles)).mesh.gridCellRegion();
+    if (options["gridCellRegion"].as<bool>()) kept.gridCellRegion = kept.share.gridCellRegion();
     return success(val::null());
   });
 }

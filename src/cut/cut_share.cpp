@@ -158,6 +158,15 @@ struct CutShare::Data {
     sign(result.mesh, madeFrom, cutOptions);
     return result;
   }
+  std::vector<int32_t> gridCellRegion() const {
+    CutMesh runs;
+    runs.grid = grid;
+    runs.rowRunOffsets = state->runs.rowOffsets;
+    runs.runBegin = state->runs.begin;
+    runs.runEnd = state->runs.end;
+    runs.runRegion = state->regions.runRegion;
+    return runs.gridCellRegion();
+  }
   ShareContext context() const { return {shareOf, fingerprintOfCut(madeFrom, grid, cutOptions), excerpt.get()}; }
 
   std::optional<PreparedForGrid> mesh;    ///< unless there is an excerpt
@@ -196,6 +205,8 @@ std::array<int64_t, 2> CutShare::layers() const {
 CutResult CutShare::common(const std::vector<uint8_t>& hasFace) const {
   return runCall("cut", [&] { return data_->common(hasFace); });
 }
+
+std::vector<int32_t> CutShare::gridCellRegion() const { return data_->gridCellRegion(); }
 
 CutResult CutShare::join(std::vector<CutPart> parts) {
   CutResult result;

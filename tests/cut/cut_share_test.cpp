@@ -140,6 +140,18 @@ TEST_CASE("The first share, which waits for what others send, has a little more 
   CHECK(20 * past < 11 * grid.cells(2));
 }
 
+TEST_CASE("A share knows the regions of all untouched grid cells once its part is made, before there are those of others", "[shares]") {
+  const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 2);
+  const PreparedMesh prepared = prepare(mesh).mesh;
+  const Grid grid = Grid::around(mesh, 12);
+  std::vector<CutShare> shares{{prepared, grid, {0, 2}}, {prepared, grid, {1, 2}}};
+  const std::array summaries{shares[0].summary(), shares[1].summary()};
+  for (CutShare& share : shares) {
+    share.part(summaries);
+    CHECK(share.gridCellRegion() == cut(prepared, grid).mesh.gridCellRegion());
+  }
+}
+
 TEST_CASE("A summary of another share that ends too early, or goes on, is refused", "[shares]") {
   const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 1);
   const PreparedMesh prepared = prepare(mesh).mesh;

@@ -66,6 +66,8 @@ class CutShare {
   /// and cut-cells; and how the cut went here. `hasFace`: per triangle 1 if some part has a face of it, else 0. Throws
   /// CallError if there are not as many (badArgument).
   CutResult common(const std::vector<uint8_t>& hasFace) const;
+  /// Likewise that of the result alone, as CutMesh::gridCellRegion().
+  std::vector<int32_t> gridCellRegion() const;
   /// Of the first share, whose part has been made. `parts`: of all shares, in their order.
   CutResult join(std::vector<CutPart> parts);
 
