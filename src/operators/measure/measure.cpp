@@ -216,6 +216,22 @@ class Measuring {
       setVolume(cell, apex, fast);
     } else {
       setVolume(cell, apex, pyramidsOf<DoubleDouble>(cell, apex));
+      keepCentroidInside(cell);
+    }
+  }
+
+  /// Rounding of made vertices may leave nothing of the volume that the centroid is divided by: it stays in the box around the vertices.
+  void keepCentroidInside(size_t cell) {
+    for (size_t d = 0; d < 3; ++d) {
+      double low = HUGE_VAL, high = -HUGE_VAL;
+      for (const uint32_t h : cutMesh_.halfFaces(cell)) {
+        for (const uint32_t v : cutMesh_.loops(h / 2)[0]) {
+          low = std::min(low, double(places_[v][d]));
+          high = std::max(high, double(places_[v][d]));
+        }
+      }
+      double& centroid = measures_.cellCentroid[3 * cell + d];
+      centroid = std::min(std::max(centroid, low), high);
     }
   }
 
