@@ -5,6 +5,8 @@
 // After it: a piece has all vertices on its sides; what two pieces have in common is the same to both.
 #pragma once
 
+#include <span>
+
 #include "cut/stages/brick_grid.h"
 #include "cut/stages/polygon.h"
 #include "cut/stages/tri_faces.h"
@@ -34,12 +36,21 @@ class KnownClips {
  public:
   /// The triangle after those, from `first` on and before `past`, that are known.
   virtual TriangleId pastKnown(TriangleId first, TriangleId past) const = 0;
-  /// Adds them to those of all others, and their vertices.
-  virtual void addTo(ClippedTriangles& others, CutVertices& vertices) = 0;
+  /// Adds those that are needed to those of all others, and the vertices of all.
+  virtual void addTo(ClippedTriangles& others, Surface& surface, const BrickGrid& bricks, Run& run) = 0;
 
  protected:
   ~KnownClips() = default;
 };
+
+/// Triangles that are clipped again, of a surface that has their vertices.
+struct ClippedAgain {
+  ClippedTriangles clipped;
+  std::vector<TriangleId> parents;  ///< per vertex that clipping makes, by ids from those of the surface on: in the order of the surface's
+};
+
+/// Some that no others reach into, ascending.
+ClippedAgain clipAgain(const Surface& surface, const BrickGrid& bricks, std::span<const TriangleId> triangles, Run& run);
 
 /// `known` may be null.
 ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run, KnownClips* known = nullptr);
