@@ -1,6 +1,7 @@
 #include "cut/stages/kept_layout.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/sort.h"
 
@@ -15,7 +16,8 @@ class LayoutAgain {
         changed_(changed),
         before_(before),
         grid_(before.grid),
-        areTouched_(changed.keys().keys.size(), 0) {}
+        areTouched_(changed.keys().keys.size(), 0),
+        isGiven_(surface.vertices.size(), 0) {}
 
   Bricks run() {
     place();
@@ -51,7 +53,7 @@ class LayoutAgain {
       }
     }
     for (const VertexId v : clipped.seamVertices) giveVertex(v);
-    sortUnique(seamVertices_);
+    sortItems(seamVertices_);
   }
   template <class Item>
   void give(uint64_t key, const Item& item, std::vector<Given<Item>>& given) {
@@ -60,7 +62,9 @@ class LayoutAgain {
     given.push_back({*brick, item});
     areTouched_[*brick] = 1;
   }
+  /// Triangles around a vertex each have it.
   void giveVertex(VertexId v) {
+    if (std::exchange(isGiven_[v], uint8_t(1)) != 0) return;
     grid_.forBricks(surface_.vertices.slab(v), [&](const Slab& cell) {
       const std::optional<uint32_t> brick = changed_.keys().find(grid_.keyOf(cell));
       if (brick) seamVertices_.push_back({*brick, v});
@@ -111,7 +115,8 @@ class LayoutAgain {
   const BrickGrid& grid_;
   std::vector<Given<uint32_t>> givenParts_, edges_;
   std::vector<Given<VertexId>> seamVertices_;
-  std::vector<uint8_t> areTouched_;  // per changed brick
+  std::vector<uint8_t> areTouched_;      // per changed brick
+  IdVector<VertexId, uint8_t> isGiven_;  // to bricks whose seams it lies on
 };
 
 }  // namespace
