@@ -1,4 +1,5 @@
 // Groups of triangles, read in a second pass through the text of a file, so that callers who need none don't pay for them.
+#include <bit>
 #include <map>
 
 #include "mesh/read/load_file.h"
