@@ -35,7 +35,7 @@ class StampedTable {
     const uint32_t stamp_;
   };
 
-  /// Empties it. So many slots and more are in use from then on, of which keys should leave a quarter free.
+  /// Empties it, to be called before view(). From then on it uses at least so many slots; keys should leave a quarter of them free.
   View clear(size_t slots) {
     mask_ = 63;
     while (mask_ < slots) mask_ = 2 * mask_ + 1;

@@ -160,7 +160,7 @@ class TextReport {
     out_ << std::right;
   }
 
-  /// A number as of the JSON report, which has none where doubles overflow.
+  /// A dash where doubles overflow: there the JSON report has null.
   static std::string volumeText(double volume) {
     if (!std::isfinite(volume)) return "-";
     std::ostringstream text;

@@ -1,5 +1,6 @@
 #include "mandoline/cut_share.h"
 
+#include <algorithm>
 #include <numeric>
 #include <string>
 
@@ -7,6 +8,7 @@
 #include "cut/driver.h"
 #include "cut/share_summary.h"
 #include "cut/stages/input.h"
+#include "mesh/fingerprints.h"
 #include "mesh/run_call.h"
 
 namespace mandoline {
@@ -21,8 +23,8 @@ void requireShare(const ShareOf& shareOf) {
   throw Failure{{Status::badArgument, int64_t(shareOf.index), -1, message}};
 }
 
-/// What the first share may have more of work than others: it waits for their parts, which take this fraction of a share to be copied and
-/// sent, as measured for workers of a page.
+/// How much more work the first share may have than others, which wait for nobody: it waits for their parts, and these take this fraction
+/// of a share to be copied and sent, as measured for workers of a page.
 constexpr uint64_t kSending = 20;
 void leaveToFirst(std::vector<uint64_t>& work, uint32_t count) {
   uint64_t left = std::accumulate(work.begin(), work.end(), uint64_t(0)) / count / kSending;
@@ -159,6 +161,8 @@ struct CutShare::Data {
     return result;
   }
   std::vector<int32_t> gridCellRegion() const {
+    if (state->regions.runRegion.size() != state->runs.begin.size() || state->runs.rowOffsets.empty())
+      throw Failure{{Status::badArgument, -1, -1, "The regions are known from part() on, until join()."}};
     CutMesh runs;
     runs.grid = grid;
     runs.rowRunOffsets = state->runs.rowOffsets;
@@ -167,7 +171,12 @@ struct CutShare::Data {
     runs.runRegion = state->regions.runRegion;
     return runs.gridCellRegion();
   }
-  ShareContext context() const { return {shareOf, fingerprintOfCut(madeFrom, grid, cutOptions), excerpt.get()}; }
+  /// Shares of a cut have the same borders.
+  ShareContext context() const {
+    Fingerprinter fingerprinter("share", fingerprintOfCut(madeFrom, grid, cutOptions));
+    for (const int32_t border : state->shareBorders) fingerprinter.add(uint64_t(border));
+    return {shareOf, fingerprinter.get(), excerpt.get()};
+  }
 
   std::optional<PreparedForGrid> mesh;    ///< unless there is an excerpt
   std::unique_ptr<ShareExcerpt> excerpt;  ///< of the mesh, if the share has no more of it
@@ -206,7 +215,9 @@ CutResult CutShare::common(const std::vector<uint8_t>& hasFace) const {
   return runCall("cut", [&] { return data_->common(hasFace); });
 }
 
-std::vector<int32_t> CutShare::gridCellRegion() const { return data_->gridCellRegion(); }
+std::vector<int32_t> CutShare::gridCellRegion() const {
+  return runCall("cut", [&] { return data_->gridCellRegion(); });
+}
 
 CutResult CutShare::join(std::vector<CutPart> parts) {
   CutResult result;

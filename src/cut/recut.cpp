@@ -72,8 +72,8 @@ struct Recutter::Data {
     }
 
    private:
-    /// Clips all triangles before, since it has to be told brick by brick what is the same. None of them met, but now some do: so the edges
-    /// are still there.
+    /// Clips all triangles before, since it has to be told brick by brick what is the same. None of them met, and some do now: so
+    /// prepareAgain() has left the mesh its edges.
     void completeBefore(Run& run) {
       CutVertices& vertices = before_.surface.vertices;
       vertices.slabs.resize(vertices.firstInTriangle.number);

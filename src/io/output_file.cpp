@@ -53,12 +53,17 @@ void OutputFile::commit() {
 
 OutputFolder::OutputFolder(const fs::path& path) {
   std::error_code error;
-  for (fs::path folder = path; !folder.empty() && !fs::exists(folder, error); folder = folder.parent_path()) made_.push_back(folder);
+  for (fs::path folder = path; folder.has_relative_path() && !fs::exists(folder, error); folder = folder.parent_path())
+    made_.push_back(folder);
   fs::create_directories(path, error);
-  if (error) throw FileError(path.string() + ": can't be written: " + error.message());
+  if (!error) return;
+  removeMade();
+  throw FileError(path.string() + ": can't be written: " + error.message());
 }
 
-OutputFolder::~OutputFolder() {
+OutputFolder::~OutputFolder() { removeMade(); }
+
+void OutputFolder::removeMade() {
   std::error_code ignored;
   for (const fs::path& folder : made_) fs::remove(folder, ignored);
 }

@@ -41,6 +41,8 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
  private:
+  void removeMade();
+
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 

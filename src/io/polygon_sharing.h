@@ -17,7 +17,7 @@ struct KnownPolygon {
   std::vector<std::array<double, 3>> positions;
 };
 
-/// By itself that of one process, which has all cells. Ids are those of the whole.
+/// As it is: for one process, which has all cells. Ids are those of the whole.
 class PolygonSharing {
  public:
   virtual ~PolygonSharing() = default;
@@ -27,14 +27,14 @@ class PolygonSharing {
   /// Whether this process tells of a face; each has one that does.
   virtual bool tellsOf(uint32_t /*face*/) const { return true; }
   virtual std::optional<uint32_t> vertexOf(uint64_t id) const { return uint32_t(id); }
-  /// A vertex that this process has not.
+  /// Adds a vertex that this process does not have.
   virtual uint32_t addVertex(uint64_t id, const std::array<double, 3>& /*position*/) { return uint32_t(id); }
 
   // Collective:
   /// Runs what may fail.
   virtual void together(FunctionRef<void()> work) { work(); }
   virtual double largest(double here) { return here; }
-  /// Makes those of all processes of these, in their order.
+  /// Replaces them by those of all processes, in the order of their faces.
   virtual void gather(std::vector<KnownPolygon>& /*polygons*/) {}
 };
 

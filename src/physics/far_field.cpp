@@ -1,5 +1,6 @@
 #include "physics/far_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -507,6 +507,8 @@ void compareCases(const std::string& file, const Names& options, const std::vect
     CHECK(inOrder(whole.owners) == numbersIn(folder, one + "owner"));
     CHECK(inOrder(whole.neighbours) == numbersIn(folder, one + "neighbour"));
     for (const int count : inOrder(whole.cells)) REQUIRE(count == 1);
+    const bool isMerged = std::find(words.begin(), words.end(), "--merge") != words.end();
+    REQUIRE(numbersOf(folder.read("one.txt"), "before").size() == size_t(isMerged));
     for (const char* count : {"before", "after", "pockets"})
       CHECK(numbersOf(folder.read("some.txt"), count) == numbersOf(folder.read("one.txt"), count));
     if (processes == 3) {  // those of a finer case are in the way of a coarser one

@@ -324,7 +324,7 @@ test('calls of its own wait for others, tell progress and give what they promise
     assert.equal(cyclic.itself, cyclic);
   }, extra));
 
-test('what a call of its own tells after its end is no progress, neither of nothing nor of the next call', () =>
+test('what a call of its own tells after its end is no progress, whether another call runs or none', () =>
   withWorker(async (worker) => {
     const told = [];
     const progress = (value) => {

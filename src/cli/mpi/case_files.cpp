@@ -46,7 +46,7 @@ PolyMesh ownMesh(const RankComplex& complex, const detail::ComplexPolygons& poly
 /// What makes the whole mesh of the pieces.
 std::vector<detail::PolyList> addressing(const RankComplex& complex, const detail::PolyFiles& files, const CaseNumbers& numbers) {
   const PolyMesh& mesh = files.mesh;
-  const std::vector<int64_t> cells(numbers.cells.begin(), numbers.cells.end()), points(numbers.points.begin(), numbers.points.end());
+  std::vector<int64_t> cells(numbers.cells.begin(), numbers.cells.end()), points(numbers.points.begin(), numbers.points.end());
   std::vector<int64_t> faces, patches;
   // Numbers count from 1, and are negative where a face's normal is the opposite of that in the whole.
   mesh.forEach([&](const PolySide& side) {
@@ -56,9 +56,9 @@ std::vector<detail::PolyList> addressing(const RankComplex& complex, const detai
     });
   });
   for (size_t p = 0; p < mesh.patches.size(); ++p) patches.push_back(p + complex.seams.size() < mesh.patches.size() ? int64_t(p) : -1);
-  return {{"cellProcAddressing", cells},
+  return {{"cellProcAddressing", std::move(cells)},
           {"faceProcAddressing", std::move(faces)},
-          {"pointProcAddressing", points},
+          {"pointProcAddressing", std::move(points)},
           {"boundaryProcAddressing", std::move(patches)}};
 }
 

@@ -1,7 +1,6 @@
 #include "cli/mpi/case_numbers.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/sort.h"
 #include "cli/mpi/count_keys.h"
@@ -118,14 +117,16 @@ class Numberer {
         forInner(seam, [&](uint32_t f) { numbers[size_t(seam.rank)].push_back(first_[2 * size_t(f)]); });
     });
     numbers = comm_.exchangeAll(numbers);
-    for (const ComplexSeam& seam : complex_.seams) {
-      size_t next = 0;
-      forInner(seam, [&](uint32_t f) {
-        const uint64_t theirs = numbers[size_t(seam.rank)].at(next++);
-        if (!isOwn(std::min(cells_.faceCells[2 * size_t(f)], cells_.faceCells[2 * size_t(f) + 1])))
-          first_[2 * size_t(f)] = first_[2 * size_t(f) + 1] = theirs;
-      });
-    }
+    comm_.together(kNoun, [&] {
+      for (const ComplexSeam& seam : complex_.seams) {
+        size_t next = 0;
+        forInner(seam, [&](uint32_t f) {
+          const uint64_t theirs = numbers[size_t(seam.rank)].at(next++);
+          if (!isOwn(std::min(cells_.faceCells[2 * size_t(f)], cells_.faceCells[2 * size_t(f) + 1])))
+            first_[2 * size_t(f)] = first_[2 * size_t(f) + 1] = theirs;
+        });
+      }
+    });
   }
 
   std::vector<uint64_t> list() const {

@@ -65,7 +65,7 @@ class KeyCounter {
         ++runs[to].back().length, ++sent_.back().length;
         continue;
       }
-      sent_.push_back({to, runs[to].size(), i, 1});
+      sent_.push_back({to, runs.at(to).size(), i, 1});
       runs[to].push_back({key, 1, count});
     }
     return runs;

@@ -1,4 +1,4 @@
-// Numbers for what several processes have some of each, by ids of the whole.
+// Numbers, in the order of the whole's ids, for things that are spread over processes.
 #pragma once
 
 #include "mpi/communicator.h"

@@ -7,13 +7,13 @@
 #include "cli/mpi/case_files.h"
 #include "cli/mpi/check_distributed.h"
 #include "cli/mpi/mcm_folder.h"
+#include "cli/mpi/merging.h"
 #include "cli/mpi/piece_files.h"
 #include "cli/peak_memory.h"
 #include "cut/stages/input.h"
 #include "mandoline/distributed.h"
 #include "mesh/inspect_arrays.h"
 #include "mesh/read/load_file.h"
-#include "mpi/merged_ranks.h"
 #include "mpi/sliced_mesh.h"
 
 #ifdef MANDOLINE_HAVE_PETSC
@@ -207,12 +207,9 @@ class Run {
 
   /// As makeCells() of the whole, with so many rings of ghosts. Takes the groups of triangles.
   RankComplex cellsOf(const RankPiece& piece, int rings) {
-    const RunOptions run{arguments_.threads, {}};
-    const CoarsenOptions coarsening = coarsenOptions(arguments_, run);
-    detail::RankMerging merging{mergeFraction(arguments_), coarsening, rings};
-    const WallOptions walls{run, arguments_.uniteWalls.value_or(0), input_.groups.triangleGroup};
-    if (arguments_.uniteWalls) merging.walls = &walls;
-    return detail::mergedComplex(ranks_.comm(), *cut_, piece, merging, &merged_);
+    std::optional<Merging> merging;  // which takes memory
+    ranks_.together([&] { merging.emplace(arguments_, input_.groups, RunOptions{arguments_.threads, {}}); });
+    return detail::mergedComplex(ranks_.comm(), *cut_, piece, merging->with(rings), &merged_);
   }
 
   /// The first process sends the groups of triangles to the others.

@@ -7,7 +7,7 @@
 #include "cli/cutting.h"
 #include "cli/interrupt.h"
 #include "cli/mpi/flow/rank_flow.h"
-#include "mpi/merged_ranks.h"
+#include "cli/mpi/merging.h"
 #include "mpi/pack.h"
 #include "physics/flow_of_phi.h"
 
@@ -94,17 +94,15 @@ void checkDistributedFlow(const Arguments& arguments) {
 
 SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const DistributedCut& cut, const TriangleGroups& groups) {
   detail::Communicator& comm = ranks.comm();
-  const CoarsenOptions coarsening = coarsenOptions(arguments, {1, {}});
-  detail::RankMerging merging{mergeFraction(arguments), coarsening, kFlowGhosts};
-  const WallOptions walls{{1, {}}, arguments.uniteWalls.value_or(0), groups.triangleGroup};
-  if (arguments.uniteWalls) merging.walls = &walls;
-  const RankComplex complex = detail::mergedComplex(comm, cut, cut.piece(), merging);
+  std::optional<Merging> merging;  // which takes memory
+  ranks.together([&] { merging.emplace(arguments, groups, RunOptions{1, {}}); });
+  const RankComplex complex = detail::mergedComplex(comm, cut, cut.piece(), merging->with(kFlowGhosts));
   const std::array<double, 3> wind = *arguments.flow.wind;
-  RankFlowOptions options;
-  options.corrections = arguments.flow.corrections.value_or(FlowOptions().corrections);
-  options.farField = arguments.flow.farField;
-  options.onIteration = throwIfInterrupted;
-  const RankFlow found = solveRankFlow(comm, complex, wind, options);
+  RankFlowOptions solving;
+  solving.corrections = arguments.flow.corrections.value_or(FlowOptions().corrections);
+  solving.farField = arguments.flow.farField;
+  solving.onIteration = throwIfInterrupted;
+  const RankFlow found = solveRankFlow(comm, complex, wind, solving);
   std::vector<Values> all = gather(comm, complex, found);
   return [=, status = found.flow.status, residuals = found.flow.residuals](const CellComplex& cells, const RunOptions& options) {
     Flow flow = flowOf(all, cells, wind, options);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kExtension = ".pvtu";
 
 bool hasCells(const CutMesh& cutMesh, const WriteOptions& options) {
-  const auto isWritten = [&](uint32_t region) { return options.regions.empty() || options.regions[region] != 0; };
+  const auto isWritten = [&](uint32_t region) { return options.hasRegion(region); };
   const auto any = [&](const std::vector<uint32_t>& regions) { return std::any_of(regions.begin(), regions.end(), isWritten); };
   return any(cutMesh.cellRegion) || (options.untouched && any(cutMesh.runRegion));
 }
@@ -59,10 +59,8 @@ void writePvtu(Ranks& ranks, const std::string& path, const RankComplex& complex
   const CellComplex& cells = complex.cells;
   const auto isOwn = [&](size_t c) { return complex.cellRanks[c] == ranks.rank(); };
   bool isWritten = false;
-  for (size_t c = 0; c < cells.cellCount(); ++c) {
-    const bool isSelected = options.regions.empty() || options.regions[cells.cellRegion[c]] != 0;
-    isWritten |= isOwn(c) && isSelected && (options.untouched || c < cells.cutCells);
-  }
+  for (size_t c = 0; c < cells.cellCount(); ++c)
+    isWritten |= isOwn(c) && options.hasRegion(cells.cellRegion[c]) && (options.untouched || c < cells.cutCells);
   writeJoined(ranks, path, detail::pvtuArrays(complex.cutMesh, detail::PieceCells::complex), isWritten,
               [&](const Sink& sink) { detail::writeVtuPiece(sink, complex.cutMesh, cells, isOwn, options); });
 }

@@ -7,7 +7,7 @@ namespace mandoline::cli {
 using detail::KnownPolygon;
 
 RankPolygons::RankPolygons(detail::Communicator& comm, RankComplex& complex) : comm_(comm), complex_(complex) {
-  together([&] {
+  comm_.together(kNoun, [&] {
     for (uint32_t v = 0; v < complex_.vertexIds.size(); ++v) {
       if (complex_.vertexIds[v] != RankComplex::kNoId) vertices_.push_back({complex_.vertexIds[v], v});
     }

@@ -8,7 +8,7 @@
 namespace mandoline::cli {
 
 /// Of a face the process of the first of its cells tells. Throws RankError.
-class RankPolygons : public detail::PolygonSharing {
+class RankPolygons final : public detail::PolygonSharing {
  public:
   /// Keeps references; adds vertices that others name.
   RankPolygons(detail::Communicator& comm, RankComplex& complex);

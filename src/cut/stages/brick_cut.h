@@ -114,7 +114,7 @@ struct BrickCut {
   std::span<const BoundaryFace> boundaryFaces;  ///< ascending
   std::span<const BoundaryHalf> boundaryHalves;
   std::span<const BoundaryLine> boundaryLines;  ///< ascending
-  std::span<const OpenFace> openFaces;          ///< of those that lie one after the other along x, beside the same run, the first
+  std::span<const OpenFace> openFaces;          ///< only the first of those that follow each other along x beside the same run
   std::span<const WindingStep> steps;           ///< between components
   std::optional<uint32_t>
       componentAtCorner;  ///< that of the point in windingBeside() at the grid's lowest corner, where the brick has that

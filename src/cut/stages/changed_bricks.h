@@ -1,6 +1,6 @@
 // Bricks that have to be cut again, of a surface of which most is where it was.
 //
-// In: the cut before and its bricks, of triangles that meet in none of both; the SurfaceMap, with the vertices in triangles; what has
+// In: the cut before and its bricks, of triangles that meet in neither cut; the SurfaceMap, with the vertices in triangles; what has
 // moved, clipped. Out: ChangedBricks. A brick has changed if a triangle has moved that it has a part of, now or before, or if there is
 // anything of such a triangle on its seams.
 #pragma once
@@ -12,8 +12,9 @@ namespace mandoline::detail {
 
 class ChangedBricks {
  public:
-  /// `moved`: the clips of triangles that have, whose vertices are in `now`. `before` has all its triangles.
+  /// `before` has all its triangles.
   ChangedBricks(const Surface& surfaceBefore, const ClippedTriangles& clippedBefore, const Bricks& before, const SurfaceMap& map);
+  /// `moved`: the clips of triangles that have, whose vertices are in `now`.
   void addOf(const ClippedTriangles& moved, const Surface& now);
 
   bool has(uint64_t key) const { return keys_.find(key).has_value(); }

@@ -46,10 +46,12 @@ class KnownClips {
 /// Triangles that are clipped again, of a surface that has their vertices.
 struct ClippedAgain {
   ClippedTriangles clipped;
-  std::vector<TriangleId> parents;  ///< per vertex that clipping makes, by ids from those of the surface on: in the order of the surface's
+  /// Per vertex that clipping makes: its triangle. In `clipped` their ids begin after the surface's; they are in the order of those of the
+  /// surface.
+  std::vector<TriangleId> parents;
 };
 
-/// Some that no others reach into, ascending.
+/// `triangles`: ascending; no others reach into them.
 ClippedAgain clipAgain(const Surface& surface, const BrickGrid& bricks, std::span<const TriangleId> triangles, Run& run);
 
 /// `known` may be null.

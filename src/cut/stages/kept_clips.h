@@ -2,7 +2,7 @@
 // again.
 //
 // In: the cut before, of triangles that are connected alike and clipped by the same planes; the SurfaceMap so far. Out: KnownClips, none
-// where triangles meet in one of both, and the vertices in triangles of the SurfaceMap; ChangedBricks.
+// where triangles meet in either of them, and the vertices in triangles of the SurfaceMap; ChangedBricks.
 #pragma once
 
 #include "cut/stages/changed_bricks.h"

@@ -49,7 +49,7 @@ class CutShare {
   /// Cuts its layers. Throws CallError as cut() has errors, and for an index that is not below the count (badArgument); only where
   /// Intersections::assumeNone leads to a contradiction, other triangles may be named, or none.
   /// `takeExcerpt`: detail::takeExcerpt where one of several shares is to keep no more of the mesh than it needs, and frees the rest on the
-  /// way; summary() and part() are then to be called once.
+  /// way; summary() and part() are then to be called once. All shares of a cut have it, or none: it also decides where they meet.
   CutShare(PreparedMesh mesh, Grid grid, const ShareOf& shareOf, const RunOptions& options = {},
            detail::TakeExcerpt* takeExcerpt = nullptr);
   /// The same of one of several shares that has prepared only what it cuts; summary() and part() are then to be called once.
@@ -66,7 +66,8 @@ class CutShare {
   /// and cut-cells; and how the cut went here. `hasFace`: per triangle 1 if some part has a face of it, else 0. Throws
   /// CallError if there are not as many (badArgument).
   CutResult common(const std::vector<uint8_t>& hasFace) const;
-  /// Likewise that of the result alone, as CutMesh::gridCellRegion().
+  /// CutMesh::gridCellRegion() of the result, which all shares know from part() on, until join(). Throws CallError before and after
+  /// (badArgument).
   std::vector<int32_t> gridCellRegion() const;
   /// Of the first share, whose part has been made. `parts`: of all shares, in their order.
   CutResult join(std::vector<CutPart> parts);

@@ -62,8 +62,8 @@ CutMesh estimateInside(const MeshView& mesh, const CutMesh& cutMesh, const Estim
 
 /// The sums of the signed solid angles of all triangles, seen from points, in whole spheres: inside of a closed surface that is oriented
 /// outwards 1, outside 0; about open ones between. Right to some 1e-12, in less than linear time per point, the same bits everywhere.
-/// `points`: 3 per point. Triangles with the point on them count as 0. Throws CallError unless the number of coordinates is a multiple of
-/// 3 (badArgument), as inspect() does, or if cancelled.
+/// `points`: 3 per point. Triangles with the point on them count as 0. Throws CallError if the number of coordinates is not a multiple
+/// of 3 (badArgument), for meshes that inspect() throws it for, or if cancelled.
 std::vector<double> generalizedWindingNumbers(const MeshView& mesh, std::span<const double> points, const RunOptions& options = {});
 
 }  // namespace mandoline

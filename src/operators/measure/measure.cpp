@@ -220,7 +220,8 @@ class Measuring {
     }
   }
 
-  /// Rounding of made vertices may leave nothing of the volume that the centroid is divided by: it stays in the box around the vertices.
+  /// Rounding of made vertices may leave nothing of the volume by which moments are divided: the centroid is kept in the box around the
+  /// vertices.
   void keepCentroidInside(size_t cell) {
     for (size_t d = 0; d < 3; ++d) {
       double low = HUGE_VAL, high = -HUGE_VAL;

@@ -86,8 +86,7 @@ class RankSolver {
   void correct() {
     const Vector rhs = system_.rhs, plain = system_.phi;
     const std::vector<double> residuals = flow_.residuals;
-    const RunOptions quiet{1, {}};
-    detail::Monitor unheard(quiet, 1);
+    detail::Monitor unheard(1);
     differentiate();
     comm_.together("flow", [&] {
       if (!fitter_) fitter_.emplace(differentiator_->fitter(unheard));
@@ -245,8 +244,7 @@ RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, c
   result.flow.wind = wind;
   result.flow.throttled = through.throttled;
   comm.together("flow", [&] {
-    const RunOptions quiet{1, {}};
-    detail::Monitor unheard(quiet, 1);
+    detail::Monitor unheard(1);
     physics::fillVelocities(complex.cells, solver.problem(), unheard, result.flow);
   });
   result.flow.cellGradient.clear();

@@ -28,9 +28,9 @@ struct RankFlow {
   double imbalance = 0;  ///< the largest sum of the flow through the faces of a cell, relative to the largest flow through a face
 };
 
-/// As solveFlow() with at most so many corrections; phi is that within the tolerance without them, and within theirs with them; and with
-/// the far field, within what may be missing of that. `complex` is that of mergedComplex() with kFlowGhosts. Collective. Throws RankError,
-/// also as solveFlow() has errors, and as PetscSolver does, whose onIteration is as well.
+/// As solveFlow() with at most so many corrections; phi agrees with that of solveFlow() within the tolerance, with corrections within what
+/// these leave, and in the far field within what its passes leave. `complex` is that of mergedComplex() with kFlowGhosts. Collective.
+/// Throws RankError, also as solveFlow() has errors, and as PetscSolver does, whose onIteration is as well.
 RankFlow solveRankFlow(detail::Communicator& comm, const RankComplex& complex, const std::array<double, 3>& wind,
                        const RankFlowOptions& options);
 

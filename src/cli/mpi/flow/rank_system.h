@@ -17,7 +17,7 @@ class RankSystem {
   using Vector = std::vector<double>;
 
   /// Keeps references. `components`: of the whole, per cell of the process. Components that nothing flows through in this problem are left
-  /// out of all solutions.
+  /// out of all solutions; with other values on the sides nothing flows through them, either.
   RankSystem(detail::Communicator& comm, const RankComplex& complex, const Halo& halo, const CellComponents& components,
              const PoissonProblem& problem);
 
@@ -30,8 +30,8 @@ class RankSystem {
   /// Makes residuals relative to the right side as it is now. Whether that is other than 0.
   bool takeNorm();
   double residual();
-  /// Solves for what the residual lacks, again and again, until it is at most `goal` or gets no smaller. `residuals`: that of phi at the
-  /// end; those of the passes are added. Throws as PetscSolver does, whose onIteration is as well.
+  /// Solves for what the residual lacks, again and again, until it is at most `goal` or gets no smaller. `residuals`: the last is
+  /// that of phi; those of the passes are appended. Throws as PetscSolver does, whose onIteration is that of the first call.
   SolveStatus solve(double goal, const std::function<void()>& onIteration, Vector& residuals);
   /// Moves phi to the mean zero by volume in each component.
   void setMeans();

@@ -9,7 +9,7 @@ namespace mandoline::cli {
 struct RankWind {
   Boundary boundary;                ///< that of the process's cells, ghosts among them; as windBoundary() of the whole
   CellComponents components;        ///< of the whole, per cell of the process
-  CellComponents parts;             ///< between slits, likewise; some numbers are of none
+  CellComponents parts;             ///< between slits, likewise; some numbers stand for no part
   std::vector<uint32_t> throttled;  ///< of the components
 };
 
