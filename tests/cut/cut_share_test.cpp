@@ -7,6 +7,7 @@
 #include "catch.h"
 #include "checked_cut.h"
 #include "cut/share_excerpt.h"
+#include "refusal.h"
 #include "same_bits.h"
 #include "seam_meshes.h"
 #include "shared_cut.h"
@@ -146,10 +147,25 @@ TEST_CASE("A share knows the regions of all untouched grid cells once its part i
   const Grid grid = Grid::around(mesh, 12);
   std::vector<CutShare> shares{{prepared, grid, {0, 2}}, {prepared, grid, {1, 2}}};
   const std::array summaries{shares[0].summary(), shares[1].summary()};
+  CHECK(refusal([&] { shares[0].gridCellRegion(); }).first == Status::badArgument);
+  std::vector<CutPart> parts;
   for (CutShare& share : shares) {
-    share.part(summaries);
+    parts.push_back(share.part(summaries));
     CHECK(share.gridCellRegion() == cut(prepared, grid).mesh.gridCellRegion());
   }
+  REQUIRE(shares[0].join(std::move(parts)));
+  CHECK(refusal([&] { shares[0].gridCellRegion(); }).first == Status::badArgument);
+}
+
+TEST_CASE("Shares that keep the mesh and shares that don't meet elsewhere, so their summaries don't go together", "[shares]") {
+  const Mesh mesh = shapes::icosphere({0, 0, 0}, 1, 4);
+  const PreparedMesh prepared = prepare(mesh).mesh;
+  const Grid grid = Grid::around(mesh, 100);
+  CutShare keeping(prepared, grid, {0, 2});
+  const CutShare other(prepared, grid, {1, 2}, {}, detail::takeExcerpt);
+  REQUIRE(keeping.layers()[1] != other.layers()[0]);
+  const std::array summaries{keeping.summary(), other.summary()};
+  CHECK(refusal([&] { keeping.part(summaries); }) == std::pair{Status::badArgument, int64_t(1)});
 }
 
 TEST_CASE("A summary of another share that ends too early, or goes on, is refused", "[shares]") {
