@@ -135,7 +135,7 @@ void cutInBricks(CutState& state, Clock& clock, Run& run) {
   divideFaces(surface, state.parts.clipped.undivided, state.parts.divided, run);
 
   clock.begin("bricks");
-  state.bricks = state.keeping ? state.keeping->layOut(brickGrid, run) : layOutBricks(surface, state.parts, brickGrid, run.monitor);
+  state.bricks = layOutBricks(surface, state.parts, brickGrid, run.monitor);
   state.bricks.here.isShare = state.layersHere.has_value();
   if (state.keeping) state.kept = &state.keeping->bricks();
   state.cuts = cutBricks(surface, state.parts, state.bricks, run, state.kept);

@@ -8,7 +8,6 @@
 #include "cut/stages/kept_arrays.h"
 #include "cut/stages/kept_bricks.h"
 #include "cut/stages/kept_clips.h"
-#include "cut/stages/kept_layout.h"
 #include "cut/stages/kept_seams.h"
 #include "mesh/fingerprints.h"
 #include "mesh/prepare_again.h"
@@ -38,17 +37,11 @@ struct Recutter::Data {
     const KnownCrossings& crossings() override { return crossings_.emplace(before_.surface, now_.surface, moved_); }
     KnownClips& clips() override {
       map_.emplace(*crossings_, now_.surface, moved_);
-      if (map_->areEdgesSame() && before_.bricks.triangles.empty()) listTriangles(before_.parts.clipped, before_.bricks);
-      return clips_.emplace(before_.surface, before_.parts.clipped, before_.bricks, *map_);
-    }
-    Bricks layOut(const BrickGrid& grid, Run& run) override {
-      if (clips_->changed()) return layOutAgain(now_.surface, now_.parts, *clips_->changed(), before_.bricks);
-      if (map_->isOrdered() && !before_.bricks.triangles.empty()) completeBefore(run);
-      return layOutBricks(now_.surface, now_.parts, grid, run.monitor);
+      return clips_.emplace(before_.surface, before_.parts.clipped, *map_);
     }
     KeptBricks& bricks() override {
-      kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts}, std::move(*map_),
-                         {now_.surface, now_.parts, now_.bricks, clips_->changed()});
+      kept_ = keepBricks({before_.surface, before_.parts, before_.bricks, before_.cuts}, std::move(*map_), now_.surface, now_.parts,
+                         now_.bricks);
       return kept_;
     }
     IdVector<BrickId, BrickSeams> seams() override { return keepSeams(kept_, now_.runs, before_.seams); }
@@ -72,17 +65,6 @@ struct Recutter::Data {
     }
 
    private:
-    /// Clips all triangles before, since it has to be told brick by brick what is the same. None of them met, and some do now: so
-    /// prepareAgain() has left the mesh its edges.
-    void completeBefore(Run& run) {
-      CutVertices& vertices = before_.surface.vertices;
-      vertices.slabs.resize(vertices.firstInTriangle.number);
-      vertices.parentTriangles.clear();
-      before_.parts.clipped = clipTriangles(before_.surface, before_.bricks.grid, run);
-      Bricks all = layOutBricks(before_.surface, before_.parts, before_.bricks.grid, run.monitor);
-      all.touched = std::move(before_.bricks.touched);
-      before_.bricks = std::move(all);
-    }
     /// Then vertices that they make have other parents.
     static bool doTrianglesMeet(const CutState& state) { return state.surface.input.mesh->hasIntersections(); }
 

@@ -68,27 +68,6 @@ TEST_CASE("recut: a ball that passes through another one is cut as it would be a
   CHECK(kept > 0);
 }
 
-TEST_CASE("recut: bricks are kept in the frame in which triangles begin to meet, and in which they cease to", "[recut]") {
-  // The bricks before are those of a surface of which only what has moved was clipped.
-  const auto at = [](double z) {
-    return shapes::merged({ball(), shapes::triangle({9.25, 1.25, 1.25}, {10.75, 1.25, 1.25}, {10, 2.75, 1.25}),
-                           shapes::triangle({10, 1.5, z}, {10.25, 1.75, z}, {10, 2, z + 0.5})});
-  };
-  const Mesh first = at(4);
-  const Grid grid = Grid::around(first, 64);
-  Recutter recutter(grid);
-  bool isFirst = true;
-  for (const double z : {4.0, 3.75, 3.5, 1.0, 0.875, 4.0, 3.5}) {
-    const Mesh mesh = at(z);
-    const CutResult& again = recutter.recut(mesh);
-    REQUIRE(again);
-    CHECK(again.mesh.madeVertices.empty() == (z > 1));
-    CHECK((isFirst || recutter.counts().kept > 20));
-    isFirst = false;
-    CHECK(differences(again.mesh, cut(mesh, grid).mesh) == std::vector<std::string>());
-  }
-}
-
 TEST_CASE("recut: vertices that rounding puts onto each other stay apart where others move", "[recut]") {
   // Two edges from one vertex that cross the plane x = 1 next to each other, far from the origin.
   const double far = 0x1p40, step = 0x1p-12;

@@ -40,9 +40,6 @@ struct Bricks {
   IdVector<BrickId, BrickBox> boxes;
   IdVector<BrickId, size_t> firstBit;  ///< in `touched`
   std::vector<uint64_t> touched;       ///< a bit for each cell of each brick: whether it belongs to the stencil
-  /// Of a surface that moves, after its first cut: the triangles that each has parts of, ascending. What follows is then known of those
-  /// bricks alone that were cut again; see kept_layout.h.
-  IdVector<BrickId, std::vector<TriangleId>> triangles;
   // Of each brick, ascending:
   Csr<uint32_t, BrickId> parts;         ///< clipped.parts
   Csr<FaceId, BrickId> dividedFaces;    ///< those in its cells, or in grid-faces of these

@@ -267,16 +267,6 @@ class ChunkJoiner {
 
 }  // namespace
 
-ClippedAgain clipAgain(const Surface& surface, const BrickGrid& bricks, std::span<const TriangleId> triangles, Run& run) {
-  ClippedChunk chunk;
-  {
-    Clipper clipper(surface, bricks, run, chunk);
-    for (const TriangleId t : triangles) clipper.clip(t);
-  }
-  run.count(chunk.predicates);
-  return {std::move(chunk.clipped), std::move(chunk.parents)};
-}
-
 ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run, KnownClips* known) {
   const Input& input = surface.input;
   CutVertices& vertices = surface.vertices;
@@ -310,7 +300,7 @@ ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& r
     appendItems(c.slabs, vertices.slabs);
     appendItems(c.parents, vertices.parentTriangles);
   }
-  if (known) known->addTo(all, surface, bricks, run);
+  if (known) known->addTo(all, vertices);
   return all;
 }
 

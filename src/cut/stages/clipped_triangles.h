@@ -5,8 +5,6 @@
 // After it: a piece has all vertices on its sides; what two pieces have in common is the same to both.
 #pragma once
 
-#include <span>
-
 #include "cut/stages/brick_grid.h"
 #include "cut/stages/polygon.h"
 #include "cut/stages/tri_faces.h"
@@ -36,23 +34,12 @@ class KnownClips {
  public:
   /// The triangle after those, from `first` on and before `past`, that are known.
   virtual TriangleId pastKnown(TriangleId first, TriangleId past) const = 0;
-  /// Adds those that are needed to those of all others, and the vertices of all.
-  virtual void addTo(ClippedTriangles& others, Surface& surface, const BrickGrid& bricks, Run& run) = 0;
+  /// Adds them to those of all others, and their vertices.
+  virtual void addTo(ClippedTriangles& others, CutVertices& vertices) = 0;
 
  protected:
   ~KnownClips() = default;
 };
-
-/// Triangles that are clipped again, of a surface that has their vertices.
-struct ClippedAgain {
-  ClippedTriangles clipped;
-  /// Per vertex that clipping makes: its triangle. In `clipped` their ids begin after the surface's; they are in the order of those of the
-  /// surface.
-  std::vector<TriangleId> parents;
-};
-
-/// `triangles`: ascending; no others reach into them.
-ClippedAgain clipAgain(const Surface& surface, const BrickGrid& bricks, std::span<const TriangleId> triangles, Run& run);
 
 /// `known` may be null.
 ClippedTriangles clipTriangles(Surface& surface, const BrickGrid& bricks, Run& run, KnownClips* known = nullptr);

@@ -9,8 +9,8 @@ namespace {
 
 class Keeper {
  public:
-  Keeper(const CutBefore& before, SurfaceMap map, const CutNow& now)
-      : before_(before), surface_(now.surface), parts_(now.parts), bricks_(now.bricks), changed_(now.changed), now_(std::move(map)) {}
+  Keeper(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks)
+      : before_(before), surface_(surface), parts_(parts), bricks_(bricks), now_(std::move(now)) {}
 
   KeptBricks run() {
     KeptBricks kept;
@@ -18,14 +18,15 @@ class Keeper {
     kept.before.assign(bricks_.size(), KeptBricks::kNone);
     kept.inner.assign(bricks_.size(), 1);
     kept.cuts.resize(bricks_.size());
-    if (!changed_) findOthers();
+    const IdVector<BrickId, uint8_t> haveOthersBefore = findOthers(before_.parts, before_.bricks),
+                                     haveOthersNow = findOthers(parts_, bricks_);
     IdVector<BrickId, uint8_t> isKept(before_.bricks.size(), 0);
     BrickId was{0};
     for (const BrickId b : bricks_.ids()) {
       while (was.number < before_.bricks.size() && before_.bricks.keys[was] < bricks_.keys[b]) ++was.number;
       if (was.number == before_.bricks.size()) break;
       if (before_.bricks.keys[was] != bricks_.keys[b]) continue;
-      if (changed_ ? changed_->has(bricks_.keys[b]) : !isSame(was, b)) continue;
+      if (haveOthersBefore[was] || haveOthersNow[b] || !isSame(was, b)) continue;
       kept.before[b] = was;
       isKept[was] = 1;
       kept.cuts[b] = renumbered(before_.cuts[was]);
@@ -45,10 +46,6 @@ class Keeper {
   }
 
  private:
-  void findOthers() {
-    haveOthersBefore_ = findOthers(before_.parts, before_.bricks);
-    haveOthersNow_ = findOthers(parts_, bricks_);
-  }
   /// Per brick: whether it has parts of triangles that are not the same.
   IdVector<BrickId, uint8_t> findOthers(const SurfaceParts& parts, const Bricks& bricks) const {
     IdVector<BrickId, uint8_t> haveOthers(bricks.size(), 0);
@@ -66,9 +63,8 @@ class Keeper {
     return haveOthers;
   }
 
-  /// If all triangles of a brick are the same and there are as many parts, these are, too, and so are edges that clipping made of them.
+  /// Of bricks all of whose triangles are the same: if there are as many parts, they are, too, and so are edges that clipping made of them.
   bool isSame(BrickId was, BrickId is) const {
-    if (haveOthersBefore_[was] || haveOthersNow_[is]) return false;
     const auto areSame = [](const auto& a, const auto& b, const auto& same) {
       return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
     };
@@ -145,13 +141,13 @@ class Keeper {
   const Surface& surface_;
   const SurfaceParts& parts_;
   Bricks& bricks_;
-  const ChangedBricks* const changed_;
   SurfaceMap now_;
-  IdVector<BrickId, uint8_t> haveOthersBefore_, haveOthersNow_;  // unless it is known what has changed
 };
 
 }  // namespace
 
-KeptBricks keepBricks(const CutBefore& before, SurfaceMap map, const CutNow& now) { return Keeper(before, std::move(map), now).run(); }
+KeptBricks keepBricks(const CutBefore& before, SurfaceMap now, const Surface& surface, const SurfaceParts& parts, Bricks& bricks) {
+  return Keeper(before, std::move(now), surface, parts, bricks).run();
+}
 
 }  // namespace mandoline::detail

@@ -5,7 +5,7 @@
 namespace mandoline::detail {
 namespace {
 
-/// Joins what is known of triangles that are the same with what others gave. All lists ascend by triangle.
+/// Joins what was known of triangles that are the same with what others gave. All lists ascend by triangle.
 class ClipJoiner {
  public:
   ClipJoiner(const ClippedTriangles& before, const ClippedTriangles& others, const SurfaceMap& now)
@@ -34,32 +34,21 @@ class ClipJoiner {
         });
   }
 
-  /// The others, with ids of all.
-  void renumberOthers(ClippedTriangles& others) const {
-    const auto renumber = [&](VertexId& v) { v = idNow(v); };
-    for (Corner& c : others.pieces.items) renumber(c.id);
-    for (FaceEdge& edge : others.hybridEdges) {
-      renumber(edge.from);
-      renumber(edge.to);
-    }
-    for (VertexId& v : others.seamVertices) renumber(v);
-  }
-
-  /// Once `now` has the vertices, and the others are renumbered.
-  ClippedTriangles joinRest(ClippedAgain again, const CutVertices& vertices) {
-    renumberAgain(again, vertices);
-    joinParts(again.clipped);
-    const size_t edges = again.clipped.hybridEdges.size() + others_.hybridEdges.size();
+  /// Once `now` has the vertices.
+  ClippedTriangles joinRest() {
+    joinParts();
+    const size_t edges = before_.hybridEdges.size() + others_.hybridEdges.size();
     all_.hybridEdges.reserve(edges);
     all_.hybridTriangles.reserve(edges);
-    const auto addEdges = [&](const ClippedTriangles& from, const IdRange& range) {
-      append(from.hybridEdges, range, all_.hybridEdges);
-      append(from.hybridTriangles, range, all_.hybridTriangles);
-    };
-    join(
-        again.clipped.hybridTriangles, others_.hybridTriangles, [](TriangleId t) { return t; },
-        [&](const IdRange& range) { addEdges(again.clipped, range); }, [&](const IdRange& range) { addEdges(others_, range); });
-    joinSeams();
+    joinTagged(&ClippedTriangles::hybridTriangles, [&](const ClippedTriangles& from, const IdRange& range, const auto& id) {
+      for (size_t i = range.begin; i < range.end; ++i) {
+        const FaceEdge& edge = from.hybridEdges[i];
+        all_.hybridEdges.push_back({edge.element, id(edge.from), id(edge.to)});
+      }
+    });
+    joinTagged(&ClippedTriangles::seamTriangles, [&](const ClippedTriangles& from, const IdRange& range, const auto& id) {
+      for (size_t i = range.begin; i < range.end; ++i) all_.seamVertices.push_back(id(from.seamVertices[i]));
+    });
     return std::move(all_);
   }
 
@@ -99,54 +88,49 @@ class ClipJoiner {
 
   VertexId idNow(VertexId other) const { return other < firstOther_ ? other : otherIds_[other.number - firstOther_.number]; }
 
-  void renumberAgain(ClippedAgain& again, const CutVertices& vertices) const {
-    const std::vector<TriangleId>& all = vertices.parentTriangles;
-    std::vector<VertexId> ids;
-    auto at = all.begin();
-    for (const TriangleId parent : again.parents) {
-      at = partitionPointAhead(at, all.end(), [&](TriangleId t) { return t < parent; });
-      ids.push_back({vertices.firstInTriangle.number + uint32_t(at++ - all.begin())});
-    }
-    const uint32_t first = uint32_t(vertices.size());
-    const auto renumber = [&](VertexId& v) {
-      if (v.number >= first) v = ids[v.number - first];
+  /// Of lists whose triangles are in one of their own: add(of whom, places, id now of their vertices).
+  template <class Add>
+  void joinTagged(std::vector<TriangleId> ClippedTriangles::*triangles, const Add& add) {
+    const auto addFrom = [&](const ClippedTriangles& from, const IdRange& range, const auto& id) {
+      append(from.*triangles, range, all_.*triangles);
+      add(from, range, id);
     };
-    for (Corner& c : again.clipped.pieces.items) renumber(c.id);
-    for (FaceEdge& edge : again.clipped.hybridEdges) {
-      renumber(edge.from);
-      renumber(edge.to);
+    join(
+        before_.*triangles, others_.*triangles, [](TriangleId t) { return t; },
+        [&](const IdRange& range) { addFrom(before_, range, [&](VertexId v) { return now_[v]; }); },
+        [&](const IdRange& range) { addFrom(others_, range, [&](VertexId v) { return idNow(v); }); });
+  }
+
+  void joinParts() {
+    all_.parts.reserve(before_.parts.size() + others_.parts.size());
+    all_.pieces.offsets.reserve(before_.pieces.offsets.size() + others_.pieces.offsets.size());
+    all_.pieces.items.reserve(before_.pieces.items.size() + others_.pieces.items.size());
+    join(
+        before_.parts, others_.parts, [](const ClippedTriangles::Part& part) { return part.triangle; },
+        [&](const IdRange& range) { addParts(before_, range, [&](VertexId v) { return now_[v]; }); },
+        [&](const IdRange& range) { addParts(others_, range, [&](VertexId v) { return idNow(v); }); });
+  }
+  /// All parts of some triangles, whose pieces follow each other.
+  template <class IdNow>
+  void addParts(const ClippedTriangles& from, const IdRange& range, const IdNow& id) {
+    const size_t at = all_.parts.size();
+    append(from.parts, range, all_.parts);
+    std::optional<uint32_t> first;
+    uint32_t past = 0;
+    for (ClippedTriangles::Part& part : std::span(all_.parts).subspan(at)) {
+      if (part.piece == ClippedTriangles::kWhole) continue;
+      if (!first) first = part.piece;
+      past = part.piece + 1;
+      part.piece += uint32_t(all_.pieces.size()) - *first;
     }
-  }
-
-  /// Of all triangles: a brick may have a vertex on its seams without a part of the triangle.
-  void joinSeams() {
-    join(
-        before_.seamTriangles, others_.seamTriangles, [](TriangleId t) { return t; },
-        [&](const IdRange& range) {
-          append(before_.seamTriangles, range, all_.seamTriangles);
-          for (size_t i = range.begin; i < range.end; ++i) all_.seamVertices.push_back(now_[before_.seamVertices[i]]);
-        },
-        [&](const IdRange& range) {
-          append(others_.seamTriangles, range, all_.seamTriangles);
-          append(others_.seamVertices, range, all_.seamVertices);
-        });
-  }
-
-  /// Pieces need not be in the order of parts.
-  void joinParts(ClippedTriangles& again) {
-    all_.pieces = std::move(again.pieces);
-    const uint32_t shift = uint32_t(all_.pieces.size());
-    all_.pieces.append(others_.pieces);
-    all_.parts.reserve(again.parts.size() + others_.parts.size());
-    join(
-        again.parts, others_.parts, [](const ClippedTriangles::Part& part) { return part.triangle; },
-        [&](const IdRange& range) { append(again.parts, range, all_.parts); },
-        [&](const IdRange& range) {
-          for (ClippedTriangles::Part part : std::span(others_.parts).subspan(range.begin, range.size())) {
-            if (part.piece != ClippedTriangles::kWhole) part.piece += shift;
-            all_.parts.push_back(part);
-          }
-        });
+    if (!first) return;
+    const std::vector<uint32_t>& offsets = from.pieces.offsets;
+    const uint32_t shift = all_.pieces.offsets.back() - offsets[*first];
+    for (uint32_t piece = *first; piece < past; ++piece) all_.pieces.offsets.push_back(offsets[piece + 1] + shift);
+    const size_t count = offsets[past] - offsets[*first], end = all_.pieces.items.size();
+    all_.pieces.items.resize(end + count);
+    const Corner* const corners = from.pieces.items.data() + offsets[*first];
+    std::transform(corners, corners + count, all_.pieces.items.data() + end, [&](const Corner& c) { return Corner{id(c.id), c.slab}; });
   }
 
   const ClippedTriangles &before_, &others_;
@@ -158,15 +142,12 @@ class ClipJoiner {
 
 }  // namespace
 
-void ClipsBefore::addTo(ClippedTriangles& others, Surface& surface, const BrickGrid& grid, Run& run) {
+void ClipsBefore::addTo(ClippedTriangles& others, CutVertices& vertices) {
   if (!now_.areEdgesSame()) return now_.mapInTriangles();
   ClipJoiner joiner(clipped_, others, now_);
-  joiner.joinVertices(surface_.vertices, surface.vertices);
+  joiner.joinVertices(vertices_, vertices);
   now_.mapInTriangles();
-  joiner.renumberOthers(others);
-  changed_.emplace(surface_, clipped_, bricks_, now_);
-  changed_->addOf(others, surface);
-  others = joiner.joinRest(clipAgain(surface, grid, changed_->trianglesAtRest(), run), surface.vertices);
+  others = joiner.joinRest();
 }
 
 }  // namespace mandoline::detail

@@ -40,7 +40,6 @@ class Keeping {
   virtual const KnownSlabs* slabs() = 0;
   virtual const KnownCrossings& crossings() = 0;
   virtual KnownClips& clips() = 0;
-  virtual Bricks layOut(const BrickGrid& grid, Run& run) = 0;
   virtual KeptBricks& bricks() = 0;  ///< of those that are laid out
   virtual IdVector<BrickId, BrickSeams> seams() = 0;
   virtual KeptArrays* arrays() = 0;  ///< null unless the result is written over that of the cut before
