@@ -50,7 +50,7 @@ test('the tarball has the package, and is small', () => {
   const gzipped = (name) => gzipSync(readFileSync(join(dist, name)), { level: 9 }).length;
   assert.ok(gzipped('mandoline.wasm') <= 350_000);
   assert.ok(gzipped('files/files.wasm') <= 250_000);
-  assert.ok(gzipped('bricks/bricks.wasm') <= 310_000);
+  assert.ok(gzipped('bricks/bricks.wasm') <= 300_000);
   assert.ok(gzipped('physics/physics.wasm') <= 400_000);
 });
 

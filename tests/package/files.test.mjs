@@ -211,6 +211,8 @@ test('lines and defects that are not there are refused', async () => {
   const open = { ...cube, triangles: cube.triangles.subarray(3) };
   const small = { positions: cube.positions.subarray(0, 9), triangles: [0, 1, 2] };
   await assert.rejects(writeDefects(small, inspect(open)), { code: 'badArgument', stage: 'writeDefects' });
+  await assert.rejects(writeDefects(cube, inspect(open)), { code: 'badArgument', stage: 'writeDefects' });
+  assert.match(new TextDecoder().decode(await writeDefects(open, inspect(open))), /^l \d+ \d+$/m);
 });
 
 test('the module of files is loaded for a PLY file, not for an OBJ file', async () => {

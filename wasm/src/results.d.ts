@@ -318,7 +318,7 @@ export interface Locations {
 
 /**
  * All in world units. Computed from what each vertex comes from (vertexParents), in coordinates local to each cell, so that the relative
- * error is small for a tiny cell, too.
+ * error is small for a tiny cell, too. Lengths should be from 1e-70 to 1e70: of others, products of up to four underflow, or overflow.
  */
 export interface MeasureArrays {
   /** Per face. */

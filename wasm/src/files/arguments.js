@@ -23,8 +23,8 @@ export const readGroups = (groups, name) => readMembers(groups, { names: asList(
 
 /** As much of what inspect() gives as is written. */
 export function readDefects(info, name) {
-  const { defectVertices, defectKind } = MeshInfo;
-  return readFields(info, { defectVertices, defectKind }, name);
+  const { vertices, triangles, defectVertices, defectKind } = MeshInfo;
+  return readFields(info, { vertices, triangles, defectVertices, defectKind }, name);
 }
 
 /** Of streamlines, their points and offsets. */
