@@ -162,7 +162,7 @@ struct CutShare::Data {
   }
   std::vector<int32_t> gridCellRegion() const {
     if (state->regions.runRegion.size() != state->runs.begin.size() || state->runs.rowOffsets.empty())
-      throw Failure{{Status::badArgument, -1, -1, "The regions are known from part() on, until join()."}};
+      throw CallError({Status::badArgument, -1, -1, "The regions are known from part() on, until join()."});
     CutMesh runs;
     runs.grid = grid;
     runs.rowRunOffsets = state->runs.rowOffsets;
@@ -215,9 +215,7 @@ CutResult CutShare::common(const std::vector<uint8_t>& hasFace) const {
   return runCall("cut", [&] { return data_->common(hasFace); });
 }
 
-std::vector<int32_t> CutShare::gridCellRegion() const {
-  return runCall("cut", [&] { return data_->gridCellRegion(); });
-}
+std::vector<int32_t> CutShare::gridCellRegion() const { return data_->gridCellRegion(); }
 
 CutResult CutShare::join(std::vector<CutPart> parts) {
   CutResult result;
