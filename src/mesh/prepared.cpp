@@ -139,10 +139,6 @@ void addTriangles(Prepared& prepared, const MeshView& mesh, const std::vector<ui
   runChunks(
       triangles, chunkCount(triangles, monitor, kBlock), monitor,
       [&](size_t, size_t begin, size_t end) {
-        if (prepared.counts.weldedVertices == 0) {
-          std::memcpy(prepared.triangles.data() + begin, mesh.triangles.data() + 3 * begin, (end - begin) * sizeof prepared.triangles[0]);
-          return;
-        }
         for (size_t t = begin; t < end; ++t) {
           for (size_t i = 0; i < 3; ++i) prepared.triangles[t][i] = lowest[mesh.triangles[3 * t + i]];
         }
