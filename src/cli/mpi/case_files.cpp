@@ -31,12 +31,13 @@ constexpr const char* kNames[] = {"points",
                                   "pointProcAddressing",
                                   "boundaryProcAddressing"};
 
+bool isMerged(const CellComplex& cells) { return !cells.cellMemberOffsets.empty(); }
+
 /// The process's own cells, without those that others have beside them.
 PolyMesh ownMesh(const RankComplex& complex, const detail::ComplexPolygons& polygons, const WriteOptions& options, int rank) {
-  const bool isMerged = !complex.cells.cellMemberOffsets.empty();
   const TriangleGroups* const groups = detail::checkedGroups(options.groups, complex.cutMesh.triangleCount);
   PolyMesh mesh = detail::makePolyMesh(complex.cutMesh, complex.cells, groups, options.simpleCells, [&](size_t c) {
-    return complex.cellRanks[c] == rank && !(isMerged && detail::isEnclosedByWalls(complex.cells, polygons, c));
+    return complex.cellRanks[c] == rank && !(isMerged(complex.cells) && detail::isEnclosedByWalls(complex.cells, polygons, c));
   });
   std::erase_if(mesh.patches,
                 [&](const PolyPatch& patch) { return &patch - mesh.patches.data() == ptrdiff_t(FaceTag::inner) && patch.name == "inner"; });
@@ -149,15 +150,16 @@ void CaseFiles::addZones(const RankComplex& complex, PolyMesh& mesh) const {
 }
 
 void CaseFiles::write(RankComplex complex, const WriteOptions& options) {
-  const bool isMerged = !complex.cells.cellMemberOffsets.empty();
-  const bool areMerged = ranks_.comm().reduce(int(isMerged), MPI_MAX) != 0;  // some may have no cells
+  const bool areMerged = ranks_.comm().reduce(int(isMerged(complex.cells)), MPI_MAX) != 0;  // some may have no cells
   std::optional<detail::ComplexPolygons> polygons;
   PolyMesh mesh;
   std::optional<detail::PolyFiles> files;
   ranks_.together([&] { polygons.emplace(complex.cutMesh, complex.cells); });
   std::optional<RankPolygons> sharing;
-  if (areMerged) sharing.emplace(ranks_.comm(), complex);
-  if (areMerged) detail::collapseFlatPolygons(complex.cells, *polygons, *sharing);
+  if (areMerged) {
+    sharing.emplace(ranks_.comm(), complex);
+    detail::collapseFlatPolygons(complex.cells, *polygons, *sharing);
+  }
   ranks_.together([&] {
     if (areMerged) detail::dividePolygonsNotSeen(complex.cells, *polygons);
     mesh = ownMesh(complex, *polygons, options, ranks_.rank());

@@ -19,10 +19,7 @@ class CaseFiles {
   ~CaseFiles();
   CaseFiles(const CaseFiles&) = delete;
 
-  /// Rings of ghosts that what is written of own cells follows from.
-  static constexpr int kGhosts = 1;
-
-  /// Writes the cells of this process, of mergedComplex(); regions and untouched of the options are not read. Collective. Throws Stopped,
+  /// Writes the cells of this process, of mergedComplex() with a ring of ghosts; regions and untouched of the options are not read. Collective. Throws Stopped,
   /// and RankError.
   void write(RankComplex complex, const WriteOptions& options);
 

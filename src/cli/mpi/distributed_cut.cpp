@@ -191,7 +191,7 @@ class Run {
       static_cast<RunOptions&>(options) = writingOptions();
     });
     if (needsComplex(arguments_))
-      writePvtu(ranks_, output, cellsOf(piece, 1), options);
+      writePvtu(ranks_, output, cellsOf(piece), options);
     else
       writePvtu(ranks_, output, *cut_, piece, options);
   }
@@ -202,14 +202,15 @@ class Run {
     static_cast<RunOptions&>(options) = writingOptions();
     options.simpleCells = arguments_.simpleCells;
     options.groups = &input_.groups;
-    CaseFiles(ranks_, output).write(cellsOf(piece, CaseFiles::kGhosts), options);
+    CaseFiles(ranks_, output).write(cellsOf(piece), options);
   }
 
-  /// As makeCells() of the whole, with so many rings of ghosts. Takes the groups of triangles.
-  RankComplex cellsOf(const RankPiece& piece, int rings) {
+  /// As makeCells() of the whole, with the ghosts that what is written of own cells follows from. Takes the groups of triangles.
+  RankComplex cellsOf(const RankPiece& piece) {
+    constexpr int kRings = 1;
     std::optional<Merging> merging;  // which takes memory
     ranks_.together([&] { merging.emplace(arguments_, input_.groups, RunOptions{arguments_.threads, {}}); });
-    return detail::mergedComplex(ranks_.comm(), *cut_, piece, merging->with(rings), &merged_);
+    return detail::mergedComplex(ranks_.comm(), *cut_, piece, merging->with(kRings), &merged_);
   }
 
   /// The first process sends the groups of triangles to the others.
