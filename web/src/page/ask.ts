@@ -2,7 +2,10 @@ import { isAbort } from '../model/failure';
 import { asPageError } from './failure';
 import type { About, State } from './state';
 
-/** Resolves to the answer, or to null after an alert. An answer takes back only alerts about the like: many come unasked, and say nothing about the mesh. */
+/**
+ * Resolves to the answer, or to null after an alert. An answer takes back only alerts about the like: many come unasked, and say nothing
+ * about the mesh.
+ */
 export async function ask<T>(state: State, answer: Promise<T>, about: About = 'answer'): Promise<T | null> {
   try {
     const value = await answer;
