@@ -29,8 +29,9 @@ if(TARGET mandoline_rank_flow)
   list(APPEND MANDOLINE_MPI_PROGRAMS mandoline-mpi-flows)
   set(MANDOLINE_MPI_DEFINITIONS MANDOLINE_MPI_FLOWS)
 endif()
-# Of this source alone: others need not be compiled again once MPI is there.
-set_source_files_properties(cli/mpi_test.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+# Of these sources alone: others need not be compiled again once MPI is there.
+file(GLOB MANDOLINE_MPI_TEST_SOURCES CONFIGURE_DEPENDS cli/mpi/*_test.cpp)
+set_source_files_properties(${MANDOLINE_MPI_TEST_SOURCES} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
   COMPILE_DEFINITIONS "MANDOLINE_MPI=\"$<TARGET_FILE:mandoline-mpi>\";MANDOLINE_MPIEXEC=\"${MPIEXEC_EXECUTABLE}\";MANDOLINE_MPI_WITHOUT_PETSC=\"$<TARGET_FILE:${MANDOLINE_MPI_WITHOUT_PETSC}>\";${MANDOLINE_MPI_DEFINITIONS}")
 
 # Of Open MPI; others do without.
