@@ -19,8 +19,8 @@ class CaseFiles {
   ~CaseFiles();
   CaseFiles(const CaseFiles&) = delete;
 
-  /// Writes the cells of this process, of mergedComplex() with a ring of ghosts; regions and untouched of the options are not read. Collective. Throws Stopped,
-  /// and RankError.
+  /// Writes the cells of this process, of mergedComplex() with a ring of ghosts; regions and untouched of the options are not read.
+  /// Collective. Throws Stopped, and RankError.
   void write(RankComplex complex, const WriteOptions& options);
 
  private:
