@@ -42,6 +42,25 @@ test('an entry opens with its preset alone, as one step, and Back returns', asyn
   await hasSettings(page, fromHash(before).settings);
 });
 
+/** Runs in the page before all else: an entry is clicked as soon as the page has come to rest. */
+function clickAtOnce() {
+  const watch = new MutationObserver(() => {
+    if (document.body?.dataset.state !== 'ready') return;
+    watch.disconnect();
+    setTimeout(() => document.querySelector('#gallery [data-name="claw"]').click());
+  });
+  watch.observe(document, { attributes: true, subtree: true, attributeFilter: ['data-state'] });
+}
+
+test('an entry is a step however soon it is clicked', async (t) => {
+  const page = await site.newPage(t, { onNewPage: (made) => made.addInitScript(clickAtOnce) });
+  await page.goto(`${site.url}#mesh=wedge&n=4`);
+  await shows(page, '#mesh-line', { name: 'claw' });
+  await hasSettings(page, preset('claw'));
+  await page.goBack();
+  await hasSettings(page, fromHash('mesh=wedge&n=4').settings);
+});
+
 test('a file is seen whole after an entry that is cut flat and coloured, with what was chosen since', async (t) => {
   const page = await site.open(t, 'mesh=wedge&n=4', { panels: ['mesh'] });
   await click(page, 'nested-spheres');

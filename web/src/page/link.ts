@@ -16,7 +16,6 @@ const rest = 1000;
  */
 export async function followLink(app: App): Promise<void> {
   let timer = 0;
-  let isBusy = true;
   /** The hash of this entry of the history. */
   let known = hashHere();
   /** Whether the settings come from the entry: what its link leaves out isn't a change. */
@@ -31,7 +30,7 @@ export async function followLink(app: App): Promise<void> {
   };
   const isPlaying = computed(() => app.state.playing.value !== null);
   const write = (isBegin = false) => {
-    if (isBusy) return; // The look may still be adapted to the mesh.
+    if (app.state.status.value === 'busy') return; // The look may still be adapted to the mesh.
     if (isPlaying.value && !isBegin) return; // What moves by itself makes no steps.
     const hash = toHash(app.settings);
     const isNew = !isRead && isNewChange(hash);
@@ -57,7 +56,7 @@ export async function followLink(app: App): Promise<void> {
       );
     }
     await app.restore(settings);
-    writeSoon();
+    write(); // At once: what is clicked next is a step.
   };
   // Of the same change both may tell.
   for (const event of ['popstate', 'hashchange']) addEventListener(event, () => hashHere() !== known && void read());
@@ -67,10 +66,7 @@ export async function followLink(app: App): Promise<void> {
   await read();
   // What is opened to play has a step of its own before it moves on.
   isPlaying.subscribe((begins) => (begins ? write(true) : writeSoon()));
-  app.state.status.subscribe((status) => {
-    isBusy = status === 'busy';
-    if (!isBusy) writeSoon();
-  });
+  app.state.status.subscribe((status) => status !== 'busy' && writeSoon());
   app.state.settings.subscribe(writeSoon);
 }
 
