@@ -283,6 +283,8 @@ test('in a worker they are the same, with promises', () =>
 test('1,000 recuts leave memory flat, and what is not freed is collected', async () => {
   setFlagsFromString('--expose-gc');
   const collectGarbage = runInNewContext('gc');
+  let collected = 0;
+  const registry = new FinalizationRegistry(() => ++collected);
   await withWorker(
     async (worker) => {
       let recutter = await worker.createRecutter(grid);
@@ -290,11 +292,14 @@ test('1,000 recuts leave memory flat, and what is not freed is collected', async
       for (let i = 0; i < 1000; ++i) {
         await recutter.cut(moved(torus(24, 12), frame(i)), { gridCellRegion: false, keep: i % 2 === 0 });
         if (i % 100 === 99) {
+          registry.register(recutter);
           recutter = await worker.createRecutter(grid);
-          collectGarbage();
-          await new Promise((resolve) => {
-            setTimeout(resolve, 20);
-          });
+          while (collected < (i + 1) / 100) {
+            collectGarbage();
+            await new Promise((resolve) => {
+              setTimeout(resolve, 20);
+            });
+          }
         }
         if (i === 400) early = await worker.call('memory');
       }
