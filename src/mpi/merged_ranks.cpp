@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/sort.h"
+#include "mpi/absorbed_cells.h"
 #include "mpi/ghost_layers.h"
 #include "mpi/make_rank_complex.h"
-#include "operators/cell_complex/half_faces.h"
 #include "operators/merge/merge_parts.h"
 #include "operators/require_cut_mesh.h"
 
@@ -14,130 +14,11 @@ namespace {
 
 constexpr const char* kMerging = "merging of cells";
 
-// What the first process learns of all cells, by the ids of the whole.
-
-struct KnownCell {
-  uint64_t id;
-  double volume;
-  std::array<double, 3> centroid;
-  std::array<int32_t, 3> corner;
-  uint32_t region;
-  uint64_t level;
-};
-
-struct KnownFace {
-  uint64_t id;
-  std::array<uint64_t, 2> cells;
-  double area;
-  std::array<double, 3> normal, centroid;
-  uint64_t isSurface;
-};
-
-/// A cell that is not the first of those that it becomes one with.
-struct Absorbed {
-  uint64_t cell, first;
-  int64_t layer;  ///< of the first one
-};
-
 MergeOptions optionsOf(double fraction) {
   MergeOptions options;
   options.threads = 1;
   options.fraction = fraction;
   return options;
-}
-
-/// Of a process's own cells; a face belongs to the process of the first of its cells. Those at the outside are not needed.
-struct Known {
-  std::vector<KnownCell> cells;
-  std::vector<KnownFace> faces;
-
-  Known(const RankComplex& complex, int rank) {
-    const CellComplex& of = complex.cells;
-    const auto pointOf = [](const std::vector<double>& points, size_t i) {
-      return std::array{points[3 * i], points[3 * i + 1], points[3 * i + 2]};
-    };
-    for (size_t c = 0; c < of.cellCount(); ++c) {
-      if (complex.cellRanks[c] != rank) continue;
-      const int32_t* corner = &of.cellCorner[3 * c];
-      cells.push_back({complex.cellIds[c],
-                       of.cellVolume[c],
-                       pointOf(of.cellCentroid, c),
-                       {corner[0], corner[1], corner[2]},
-                       of.cellRegion[c],
-                       of.cellLevel[c]});
-    }
-    for (size_t f = 0; f < of.faceCount(); ++f) {
-      const int32_t a = of.faceCells[2 * f], b = of.faceCells[2 * f + 1];
-      if (a < 0 || b < 0 || complex.cellRanks[size_t(a)] != rank) continue;
-      faces.push_back({complex.faceIds[f],
-                       {complex.cellIds[size_t(a)], complex.cellIds[size_t(b)]},
-                       of.faceArea[f],
-                       pointOf(of.faceNormal, f),
-                       pointOf(of.faceCentroid, f),
-                       uint64_t(of.faceTag[f] == FaceTag::surface)});
-    }
-  }
-};
-
-/// As much of the whole's cell complex as decides which cells merge.
-CellComplex complexOf(const std::vector<KnownCell>& cells, const std::vector<KnownFace>& faces, uint64_t wholeCutCells) {
-  CellComplex complex;
-  complex.cutCells = uint32_t(wholeCutCells);
-  for (const KnownCell& cell : cells) {
-    complex.cellVolume.push_back(cell.volume);
-    complex.cellCentroid.insert(complex.cellCentroid.end(), cell.centroid.begin(), cell.centroid.end());
-    complex.cellCorner.insert(complex.cellCorner.end(), cell.corner.begin(), cell.corner.end());
-    complex.cellRegion.push_back(cell.region);
-    complex.cellLevel.push_back(uint8_t(cell.level));
-  }
-  for (const KnownFace& face : faces) {
-    for (const uint64_t id : face.cells) complex.faceCells.push_back(int32_t(id));
-    complex.faceTag.push_back(face.isSurface ? FaceTag::surface : FaceTag::inner);
-    complex.faceArea.push_back(face.area);
-    complex.faceNormal.insert(complex.faceNormal.end(), face.normal.begin(), face.normal.end());
-    complex.faceCentroid.insert(complex.faceCentroid.end(), face.centroid.begin(), face.centroid.end());
-  }
-  operators::gatherHalfFaces(complex, 1);
-  return complex;
-}
-
-/// The items of all in the first process, by their ids.
-template <class Item>
-std::vector<Item> inFirst(Communicator& comm, std::vector<Item> items) {
-  std::vector<std::vector<Item>> forEach;
-  comm.together(kMerging, [&] {
-    forEach.resize(size_t(comm.size()));
-    forEach[0] = std::move(items);
-  });
-  forEach = comm.exchangeAll(forEach);
-  std::vector<Item> all;
-  comm.together(kMerging, [&] {
-    for (std::vector<Item>& some : forEach) {
-      all.insert(all.end(), some.begin(), some.end());
-      some = {};
-    }
-    sortItems(all, [](const Item& a, const Item& b) { return a.id < b.id; });
-  });
-  return all;
-}
-
-/// Ascending.
-std::vector<Absorbed> absorbedCells(Communicator& comm, const CutMesh& common, const RankComplex& complex, double fraction) {
-  std::optional<Known> known;
-  comm.together(kMerging, [&] { known.emplace(complex, comm.rank()); });
-  const std::vector<KnownCell> cells = inFirst(comm, std::move(known->cells));
-  const std::vector<KnownFace> faces = inFirst(comm, std::move(known->faces));
-  std::vector<Absorbed> absorbed;
-  comm.together(kMerging, [&] {
-    if (comm.rank() > 0) return;
-    const std::vector<uint32_t> first = operators::mergedWith(common, complexOf(cells, faces, complex.wholeCutCells), optionsOf(fraction));
-    for (size_t c = 0; c < cells.size(); ++c) {
-      const KnownCell& to = cells[first[c]];
-      if (first[c] != c) absorbed.push_back({cells[c].id, to.id, to.corner[2]});
-    }
-  });
-  comm.broadcast(absorbed, 0);
-  return absorbed;
 }
 
 /// A process's cells as they become.

@@ -26,8 +26,7 @@ struct MergedCounts {
 /// those but the last; others may lack members. Vertices and cells have the whole's ids, and faces that of their first member in the whole
 /// as it is before. `piece` is that of cut.piece(). `counts` may be null. Collective. Throws RankError.
 ///
-/// Which cells merge the first process decides, which is told volumes, centroids and areas of all. It tells all which cells are no longer
-/// the first of theirs.
+/// Which cells merge the first process decides (mpi/absorbed_cells.h). It tells all which cells are no longer the first of theirs.
 MANDOLINE_SHARED RankComplex mergedComplex(Communicator& comm, const DistributedCut& cut, const RankPiece& piece,
                                            const RankMerging& merging, MergedCounts* counts = nullptr);
 

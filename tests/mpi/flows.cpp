@@ -156,6 +156,23 @@ bool check(detail::Communicator& comm, const std::string& name, const Mesh& mesh
   return comm.reduce(problem.empty() ? 0 : 1, MPI_MAX) == 0;
 }
 
+/// Of untouched cells far from the surface no process tells the first one when cells are merged.
+bool checkSent(detail::Communicator& comm) {
+  constexpr uint64_t kMostForCell = 16;  // a cell and its faces would be more than 300
+  const Mesh ball = shapes::icosphere({0, 0, 0}, 1, 2);
+  const PreparedMesh prepared = prepare(ball, {{1, {}}}).mesh;
+  const Grid grid = Grid::regular({-8, -8, -8}, {0.33, 0.33, 0.33}, {48, 48, 48});
+  const DistributedCut distributed(MPI_COMM_WORLD, prepared, grid, {1, {}});
+  const uint64_t before = comm.bytesSent();
+  const RankComplex mine = complexFor(comm, distributed, {0.2, 0});
+  const uint64_t sent = comm.reduce(comm.bytesSent() - before, MPI_SUM);
+  const bool isGood = sent < kMostForCell * mine.wholeCells;
+  if (comm.rank() == 0)
+    std::printf("%llu bytes are sent to merge %llu cells: %s\n", static_cast<unsigned long long>(sent),
+                static_cast<unsigned long long>(mine.wholeCells), isGood ? "few" : "TOO MANY");
+  return isGood;
+}
+
 int checkAll(int64_t n, size_t every) {
   detail::Communicator comm(MPI_COMM_WORLD, nullptr);
   size_t checked = 0, wrong = 0;
@@ -176,6 +193,7 @@ int checkAll(int64_t n, size_t every) {
   add("plate", plate);
   add("ball and cubes", shapes::merged({shapes::icosphere({0, 0, 0}, 1, 2), shapes::cube(0.5, 1.5), shapes::cube(-3, -2)}));
   for (const std::string& file : realMeshes(every)) add(file, readMesh(file));
+  if (!checkSent(comm)) ++wrong;
   if (comm.rank() == 0) std::cout << checked << " meshes, of which " << wrong << " differ" << std::endl;
   return wrong == 0 ? 0 : 1;
 }
