@@ -121,11 +121,14 @@ SnappedInput::SnappedInput(const MeshView& mesh, const Grid& grid, const CutOpti
 }
 
 void cutInBricks(CutState& state, Clock& clock, Run& run) {
+  clock.begin("triEdges");
+  cutTriEdges(state.surface, run, state.keeping ? &state.keeping->crossings() : nullptr);
+  cutBricksHere(state, clock, run);
+}
+
+void cutBricksHere(CutState& state, Clock& clock, Run& run) {
   Surface& surface = state.surface;
   const Input& input = surface.input;
-
-  clock.begin("triEdges");
-  cutTriEdges(surface, run, state.keeping ? &state.keeping->crossings() : nullptr);
 
   clock.begin("triFaces");
   const std::array<int, 3> shifts = state.brickShifts ? *state.brickShifts : BrickGrid::shiftsFor(input, run.monitor.threads());
@@ -146,7 +149,7 @@ void cutInBricks(CutState& state, Clock& clock, Run& run) {
 void joinBricks(CutState& state, Clock& clock, Run& run) {
   const Input& input = state.surface.input;
   clock.begin("regions");
-  state.runs = findUntouchedRuns(input, state.bricks, run.monitor);
+  state.runs = findUntouchedRuns(input, state.bricks, {0, input.cells(2)}, run.monitor);
   if (state.keeping) state.seams = state.keeping->seams();
   findSeams(state.cut(), state.kept, state.seams, run);
   state.regions = findRegions(state.cut());

@@ -99,6 +99,8 @@ void beginCut(const Prepared& prepared, const Grid& grid, CutState& state, Clock
 
 /// The stages after "grid" up to "bricks".
 void cutInBricks(CutState& state, Clock& clock, Run& run);
+/// Those of these after "triEdges": once more for other layers.
+void cutBricksHere(CutState& state, Clock& clock, Run& run);
 /// The stage "regions", once it is known what all bricks found.
 void joinBricks(CutState& state, Clock& clock, Run& run);
 

@@ -6,54 +6,12 @@
 
 #include "base/double_double.h"
 #include "cut/driver.h"
-#include "cut/share_summary.h"
+#include "cut/share_counts.h"
 #include "mesh/run_call.h"
 
 namespace mandoline::detail {
 
-/// What a process has of its bricks.
-struct BricksLoad {
-  BrickCounts counts;
-  uint64_t surfaceVertices = 0, made = 0;       ///< of the mesh and its edges; made ones of these
-  uint64_t facesAbove = 0, seamFacesAbove = 0;  ///< in the plane above: those of its cells, and of these those that others have, too
-  uint64_t summaryBytes = 0, brickBytes = 0;
-  uint64_t toldBytes = 0;  ///< of what summaries tell, once it is arrays again
-};
-
-struct BricksLoads {
-  std::vector<BricksLoad> ofRanks;
-  uint64_t surfaceBytes = 0;  ///< of all crossings
-  uint64_t seamBytes = 0;     ///< which all processes have, with untouched grid cells
-  uint64_t regions = 0;
-};
-
 namespace {
-
-template <class... Arrays>
-uint64_t bytesOf(const Arrays&... arrays) {
-  return (0 + ... + uint64_t(arrays.size() * sizeof(*arrays.begin())));
-}
-
-uint64_t bytesOfBrick(BrickCut& cut) {
-  uint64_t bytes = bytesOf(cut.vertices.slabs, cut.vertices.parentTriangles);
-  cut.forArrays([&](const auto& array, auto) { bytes += array.size() * sizeof(*array.begin()); });
-  return bytes;
-}
-
-uint64_t bytesOfSeams(const CutState& state) {
-  uint64_t bytes = bytesOf(state.runs.rowOffsets, state.runs.begin, state.runs.end, state.regions.runRegion);
-  for (const BrickSeams& brick : state.seams) {
-    bytes += 2 * bytesOf(brick.rows) + bytesOf(brick.joins);  // of the rows also where their numbers begin
-    for (const SeamRanges* seams : {&brick.triFaces, &brick.pieces, &brick.halves, &brick.vertices})
-      bytes += bytesOf(seams->own, seams->others);
-  }
-  return bytes;
-}
-
-uint64_t bytesOfSurface(const CutState& state) {
-  const CutVertices& vertices = state.surface.vertices;
-  return bytesOf(vertices.slabs, vertices.parentEdges, vertices.crossingOffsets, state.used);
-}
 
 uint64_t bytesOfPrepared(const Prepared& mesh) {
   uint64_t bytes = bytesOf(mesh.points, mesh.triangles, mesh.states, mesh.parts.kinds);
@@ -125,51 +83,6 @@ LayerMemory memoryOf(const BricksLoad& load) {
   return {load.brickBytes + numbers + output, output + ids + std::max(output, measures)};
 }
 
-/// The process that has each layer of grid cells.
-std::vector<uint32_t> ranksOf(const ShareLayers& shares, uint32_t count) {
-  std::vector<uint32_t> ranks;
-  for (uint32_t rank = 0; rank < count; ++rank) ranks.resize(size_t(shares.of(rank).past), rank);
-  return ranks;
-}
-
-/// Counts what a finished cut has of the bricks of each process.
-BricksLoads loadsOf(CutState& state, const ShareLayers& shares, uint32_t count) {
-  const Bricks& bricks = state.bricks;
-  const std::vector<uint32_t> rankOf = ranksOf(shares, count);
-  BricksLoads all;
-  all.ofRanks.resize(count);
-  all.surfaceBytes = bytesOfSurface(state);
-  all.seamBytes = bytesOfSeams(state);
-  all.regions = state.regions.count;
-  const uint32_t above = uint32_t(cellFace(2, 1));
-  for (const BrickId b : bricks.ids()) {
-    const BrickBox& box = bricks.boxes[b];
-    const uint32_t rank = rankOf[size_t(box.first[2])];
-    BricksLoad& load = all.ofRanks[rank];
-    for (const BrickCounts& row : state.seams[b].rows) load.counts.add(row);
-    const BrickCut& cut = state.cuts[b];
-    load.summaryBytes += summaryBytes(state, b);
-    load.toldBytes += bytesOf(cut.rows, cut.boundaryFaces, cut.boundaryHalves, cut.boundaryLines, cut.openFaces, cut.steps);
-    load.brickBytes += bytesOfBrick(state.cuts[b]);
-    if (box.first[2] + box.count[2] < shares.of(rank).past) continue;
-    for (const BoundaryFace& face : state.cuts[b].boundaryFaces) {
-      if (face.index == above) load.facesAbove += face.triFaces.count + face.pieces.count;
-    }
-    for (const SeamRanges* seams : {&state.seams[b].triFaces, &state.seams[b].pieces}) {
-      for (const SeamRange& own : seams->own) {
-        if (own.key % 32 == above) load.seamFacesAbove += own.range.count;
-      }
-    }
-  }
-  for (const VertexId v : listUsed(state.used)) {
-    const int32_t z = std::clamp(state.surface.vertices.slab(v)[2] >> 1, 0, bricks.grid.cells[2] - 1);
-    BricksLoad& load = all.ofRanks[rankOf[size_t(z)]];
-    ++load.surfaceVertices;
-    load.made += state.surface.vertices.isImplicit(v);
-  }
-  return all;
-}
-
 /// Whether processes that have such a mesh each prepare only what they cut: see mesh_band.h.
 bool isPreparedInShares(const Prepared& mesh) {
   if (mesh.counts.zeroAreaTriangles + mesh.counts.flushedCoordinates > 0 || !mesh.duplicates.empty() || mesh.hasIntersections())
@@ -197,30 +110,11 @@ struct SharePlanner::Data {
     isInShares = !mesh.isPreparedAgain() && isPreparedInShares(mesh.prepared());
   }
 
-  /// Cuts all bricks of all processes.
-  BricksLoads cutFor(const ShareLayers& shares, uint32_t ranks, const RunOptions& options) {
-    CutStats stats;
-    Monitor monitor(options, kGridStages);
-    Clock clock(stats, monitor);
-    Run run{stats, monitor};
-    CutState state;
-    state.isNeededAgain = true;
-    state.surface.input = input;
-    state.brickShifts = shares.shifts();
-    state.shareBorders = shares.borders();
-    cutInBricks(state, clock, run);
-    joinBricks(state, clock, run);
-    if (used.empty()) {
-      for (const VertexId v : listUsed(state.used)) used.push_back({v.number, state.surface.vertices.slab(v)[2]});
-    }
-    return loadsOf(state, shares, ranks);
-  }
-
-  std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options) {
+  std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options, uint64_t windowWork) {
     const ShareLayers shares(input, work, ranks);
-    BricksLoads all = cutFor(shares, ranks, options);
+    BricksLoads all = countShares(input, {shares, ranks, work}, windowWork, options);
     std::vector<BricksLoad>& sums = all.ofRanks;
-    addUsed(shares, sums);
+    addUsed(shares, all.used, sums);
     uint64_t summaries = 0;
     for (const BricksLoad& sum : sums) summaries += sum.summaryBytes + sum.toldBytes;
     std::vector<ShareLoad> loads(ranks);
@@ -263,7 +157,7 @@ struct SharePlanner::Data {
   }
 
   /// Which vertices of the surface loops have, as summaries tell it.
-  void addUsed(const ShareLayers& shares, std::vector<BricksLoad>& sums) const {
+  void addUsed(const ShareLayers& shares, const std::vector<BricksLoads::UsedVertex>& used, std::vector<BricksLoad>& sums) const {
     constexpr uint64_t kWordBytes = 5;
     const std::vector<uint32_t> rankOf = ranksOf(shares, uint32_t(sums.size()));
     std::vector<uint32_t> last(sums.size(), ~0u);
@@ -314,19 +208,14 @@ struct SharePlanner::Data {
   bool isInShares = false;     // prepared so by several processes
   std::vector<uint64_t> work;  // of layers of grid cells
   std::optional<Reach> reach;
-  struct UsedVertex {
-    uint32_t id;
-    int32_t z;  // its slab
-  };
-  std::vector<UsedVertex> used;
 };
 
 SharePlanner::SharePlanner(PreparedMesh mesh, Grid grid, const RunOptions& options) {
   runCall("cut", [&] { data_ = std::make_shared<Data>(std::move(mesh), std::move(grid), options); });
 }
 
-std::vector<ShareLoad> SharePlanner::loads(uint32_t ranks, const RunOptions& options) {
-  return runCall("cut", [&] { return data_->loads(ranks, options); });
+std::vector<ShareLoad> SharePlanner::loads(uint32_t ranks, const RunOptions& options, uint64_t windowWork) {
+  return runCall("cut", [&] { return data_->loads(ranks, options, windowWork); });
 }
 
 }  // namespace mandoline::detail

@@ -23,10 +23,13 @@ class MANDOLINE_SHARED SharePlanner {
   /// Throws CallError as cut() has errors.
   SharePlanner(PreparedMesh mesh, Grid grid, const RunOptions& options);
 
-  /// Those of a cut by so many processes, by rank: the grid is cut once more, in their bricks. Throws CallError as the constructor.
-  std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options);
+  /// Those of a cut by so many processes, by rank: the grid is cut once more, in their bricks, `windowWork` at a time, as ShareLoad counts
+  /// it. Throws CallError as the constructor; of triangles that meet and are not to be resolved only where one such window shows it.
+  std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options, uint64_t windowWork = kWindowWork);
 
  private:
+  static constexpr uint64_t kWindowWork = uint64_t(1) << 25;  // as measured, about half a GB of bricks
+
   struct Data;
   std::shared_ptr<Data> data_;
 };

@@ -83,7 +83,7 @@ struct StagedCut {
   void findRest() {
     state.cuts = cutBricks(state.surface, state.parts, state.bricks, run, state.kept);
     state.used = findUsed(state.surface, state.bricks, state.cuts, run);
-    state.runs = findUntouchedRuns(state.surface.input, state.bricks, monitor);
+    state.runs = findUntouchedRuns(state.surface.input, state.bricks, {0, state.surface.input.cells(2)}, monitor);
     findSeams(state.cut(), state.kept, state.seams, run);
     state.regions = findRegions(state.cut());
   }

@@ -40,16 +40,16 @@ class RunFinder {
 
 }  // namespace
 
-UntouchedRuns findUntouchedRuns(const Input& input, const Bricks& bricks, Monitor& monitor) {
+UntouchedRuns findUntouchedRuns(const Input& input, const Bricks& bricks, const CellLayers& layers, Monitor& monitor) {
   UntouchedRuns runs;
   runs.ny = size_t(input.cells(1));
   runs.rowOffsets.reserve(runs.ny * size_t(input.cells(2)) + 1);
-  runs.rowOffsets.push_back(0);
+  runs.rowOffsets.assign(runs.ny * size_t(layers.first) + 1, 0);
   RunFinder finder(input, bricks, runs);
   const auto firstFrom = [&](uint64_t key) {
     return BrickId{uint32_t(std::lower_bound(bricks.keys.begin(), bricks.keys.end(), key) - bricks.keys.begin())};
   };
-  for (int32_t k = 0; k < input.cells(2); ++k) {
+  for (int32_t k = layers.first; k < layers.past; ++k) {
     BrickId first{0}, past{0};
     for (int32_t j = 0; j < input.cells(1); ++j) {
       if ((j & ((1 << bricks.grid.shifts[1]) - 1)) == 0) {
@@ -61,6 +61,7 @@ UntouchedRuns findUntouchedRuns(const Input& input, const Bricks& bricks, Monito
     }
     monitor.report(0, 1);  // it takes little of the stage, but may be told to stop
   }
+  runs.rowOffsets.resize(runs.ny * size_t(input.cells(2)) + 1, uint32_t(runs.size()));
   return runs;
 }
 

@@ -34,6 +34,7 @@ struct UntouchedRuns {
   }
 };
 
-UntouchedRuns findUntouchedRuns(const Input& input, const Bricks& bricks, Monitor& monitor);
+/// `layers`: other rows have no runs.
+UntouchedRuns findUntouchedRuns(const Input& input, const Bricks& bricks, const CellLayers& layers, Monitor& monitor);
 
 }  // namespace mandoline::detail
