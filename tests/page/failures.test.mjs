@@ -288,7 +288,7 @@ test('where the code can not be written for lack of its module the page says so,
   await isReady(page);
   await openPanel(page, 'code');
   await eventually(async () => assert.match(await textOf(page, '#code'), /can't be loaded/));
-  await page.unroute(/\/code-.*\.js/);
+  await page.unrouteAll({ behavior: 'wait' });
   await page.locator('#code-toggle').click();
   await openPanel(page, 'code');
   await eventually(async () => assert.match(await textOf(page, '#javascript-text'), /mandoline/));

@@ -167,7 +167,7 @@ test('where it can not be loaded the page says so', async (t) => {
   await isReady(page);
   await eventually(async () => assert.match(await textOf(page, '#alerts'), /can't be started/));
   await shows(page, '#canvas', { smoke: '' });
-  await page.unroute(/physics.*\.wasm/);
+  await page.unrouteAll({ behavior: 'wait' });
   await openPanel(page, 'wind');
   await page.locator('#wind-heading').press('ArrowRight');
   await eventually(async () => assert.match((await dataOf(page, '#canvas')).smoke, /^0\.99/));
@@ -186,7 +186,7 @@ test('where what keeps its time can not be loaded the page says so', async (t) =
   await eventually(async () => assert.match(await textOf(page, '#alerts'), /smoke/));
   await openPanel(page, 'wind');
   assert.equal(await page.locator('#wind-numbers').getAttribute('aria-busy'), 'false');
-  await page.unroute(/\/smoke-.*\.js/, refuse);
+  await page.unrouteAll({ behavior: 'wait' });
   await page.locator('#wind-heading').press('ArrowRight');
   await eventually(async () => assert.match((await dataOf(page, '#canvas')).smoke, /^0\.99/));
 });

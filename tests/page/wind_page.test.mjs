@@ -176,7 +176,7 @@ test('where the wind tunnel can not be loaded the page says so, and loads it whe
   await isReady(page);
   await eventually(async () => assert.match(await textOf(page, '#alerts'), /can't be started/));
   await shows(page, '#canvas', { wind: '' });
-  await page.unroute(/physics.*\.wasm/);
+  await page.unrouteAll({ behavior: 'wait' });
   await openPanel(page, 'wind');
   await enter(page, '#wind-cells', 17);
   await shows(page, '#canvas', { wind: '1,0,0' });
