@@ -1,6 +1,7 @@
 #include "cut/share_counts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "cut/share_summary.h"
@@ -64,6 +65,13 @@ class RegionCounter {
   uint32_t before_ = 0;         // how many these are
   uint64_t count_ = 0;
 };
+
+/// The process that has each layer of grid cells.
+std::vector<uint32_t> ranksOf(const ShareLayers& shares, uint32_t count) {
+  std::vector<uint32_t> ranks;
+  for (uint32_t rank = 0; rank < count; ++rank) ranks.resize(size_t(shares.of(rank).past), rank);
+  return ranks;
+}
 
 uint64_t bytesOfBrick(BrickCut& cut) {
   uint64_t bytes = bytesOf(cut.vertices.slabs, cut.vertices.parentTriangles);
@@ -162,9 +170,8 @@ class ShareCounter {
     all_.seamBytes += count * (sizeof runs.begin[0] + sizeof runs.end[0] + sizeof state_.regions.runRegion[0]);
     for (size_t v = 0; v < isUsed_.size(); ++v) isUsed_[v] |= state_.used[v].load(std::memory_order_relaxed);
     const CutVertices& vertices = state_.surface.vertices;
-    const int32_t last = bricks.grid.cells[2] - 1;
     for (VertexId v = vertices.firstInTriangle; v.number < vertices.size(); ++v.number) {
-      if (isIn(layers, std::clamp(vertices.slab(v)[2] >> 1, 0, last))) all_.surfaceBytes += sizeof(Slab);
+      if (isIn(layers, layerOf(v))) all_.surfaceBytes += sizeof(Slab);
     }
   }
 
@@ -205,20 +212,37 @@ class ShareCounter {
   }
 
   void finish() {
-    const Bricks& bricks = state_.bricks;
     const CutVertices& vertices = state_.surface.vertices;
-    all_.seamBytes += (state_.runs.rowOffsets.size()) * sizeof state_.runs.rowOffsets[0];
+    all_.seamBytes += bytesOf(state_.runs.rowOffsets);
     all_.surfaceBytes += bytesOf(vertices.slabs, vertices.parentEdges, vertices.crossingOffsets, isUsed_);
     all_.regions = regions_.count();
     for (VertexId v{0}; v.number < isUsed_.size(); ++v.number) {
       if (!isUsed_[v.number]) continue;
-      const int32_t slab = vertices.slab(v)[2], z = std::clamp(slab >> 1, 0, bricks.grid.cells[2] - 1);
-      BricksLoad& load = all_.ofRanks[rankOf_[size_t(z)]];
+      BricksLoad& load = all_.ofRanks[rankOf_[size_t(layerOf(v))]];
       ++load.surfaceVertices;
       load.made += vertices.isImplicit(v);
-      all_.used.push_back({v.number, slab});
+    }
+    addUsed();
+  }
+
+  /// Which vertices of the surface loops have, as summaries tell it.
+  void addUsed() {
+    constexpr uint64_t kWordBytes = 5;
+    std::vector<uint32_t> last(shares_.count, ~0u);
+    const auto add = [&](int32_t layer, uint32_t word) {
+      const uint32_t rank = rankOf_[size_t(layer)];
+      if (std::exchange(last[rank], word) != word) all_.ofRanks[rank].summaryBytes += kWordBytes;
+    };
+    for (VertexId v{0}; v.number < isUsed_.size(); ++v.number) {
+      if (!isUsed_[v.number]) continue;
+      const int32_t z = state_.surface.vertices.slab(v)[2];
+      add(layerOf(v), v.number / 32);
+      if (onPlane(z) && z > 0) add((z - 1) >> 1, v.number / 32);
     }
   }
+
+  /// Vertices beyond the grid are in its outermost layers.
+  int32_t layerOf(VertexId v) const { return std::clamp(state_.surface.vertices.slab(v)[2] >> 1, 0, state_.surface.input.cells(2) - 1); }
 
   const SharesToCount shares_;
   const std::vector<uint32_t> rankOf_;
@@ -229,12 +253,6 @@ class ShareCounter {
 };
 
 }  // namespace
-
-std::vector<uint32_t> ranksOf(const ShareLayers& shares, uint32_t count) {
-  std::vector<uint32_t> ranks;
-  for (uint32_t rank = 0; rank < count; ++rank) ranks.resize(size_t(shares.of(rank).past), rank);
-  return ranks;
-}
 
 BricksLoads countShares(const Input& input, const SharesToCount& shares, uint64_t windowWork, const RunOptions& options) {
   return ShareCounter(input, shares).run(windowWork, options);

@@ -27,20 +27,11 @@ struct BricksLoad {
 };
 
 struct BricksLoads {
-  struct UsedVertex {
-    uint32_t id;
-    int32_t z;  ///< its slab
-  };
-
   std::vector<BricksLoad> ofRanks;
-  std::vector<UsedVertex> used;  ///< vertices of the mesh and its edges that loops have, ascending
-  uint64_t surfaceBytes = 0;     ///< of all crossings
-  uint64_t seamBytes = 0;        ///< which all processes have, with untouched grid cells
+  uint64_t surfaceBytes = 0;  ///< of all crossings
+  uint64_t seamBytes = 0;     ///< which all processes have, with untouched grid cells
   uint64_t regions = 0;
 };
-
-/// The process that has each layer of grid cells.
-std::vector<uint32_t> ranksOf(const ShareLayers& shares, uint32_t count);
 
 template <class... Arrays>
 uint64_t bytesOf(const Arrays&... arrays) {

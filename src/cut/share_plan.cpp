@@ -112,9 +112,8 @@ struct SharePlanner::Data {
 
   std::vector<ShareLoad> loads(uint32_t ranks, const RunOptions& options, uint64_t windowWork) {
     const ShareLayers shares(input, work, ranks);
-    BricksLoads all = countShares(input, {shares, ranks, work}, windowWork, options);
-    std::vector<BricksLoad>& sums = all.ofRanks;
-    addUsed(shares, all.used, sums);
+    const BricksLoads all = countShares(input, {shares, ranks, work}, windowWork, options);
+    const std::vector<BricksLoad>& sums = all.ofRanks;
     uint64_t summaries = 0;
     for (const BricksLoad& sum : sums) summaries += sum.summaryBytes + sum.toldBytes;
     std::vector<ShareLoad> loads(ranks);
@@ -154,20 +153,6 @@ struct SharePlanner::Data {
     const uint64_t cutting = excerpt + all.seamBytes + summaries + writing, freed = kFreedBytes * mesh.view().triangleCount();
     const uint64_t view = ranks == 1 ? bytesOfView() : uint64_t(reach->of(layers) * double(bytesOfView()));
     return view + std::max(cutting, measuring + freed);
-  }
-
-  /// Which vertices of the surface loops have, as summaries tell it.
-  void addUsed(const ShareLayers& shares, const std::vector<BricksLoads::UsedVertex>& used, std::vector<BricksLoad>& sums) const {
-    constexpr uint64_t kWordBytes = 5;
-    const std::vector<uint32_t> rankOf = ranksOf(shares, uint32_t(sums.size()));
-    std::vector<uint32_t> last(sums.size(), ~0u);
-    const auto add = [&](uint32_t rank, uint32_t word) {
-      if (std::exchange(last[rank], word) != word) sums[rank].summaryBytes += kWordBytes;
-    };
-    for (const auto& [vertex, z] : used) {
-      add(rankOf[size_t(std::clamp(z >> 1, 0, input.cells(2) - 1))], vertex / 32);
-      if (onPlane(z) && z > 0) add(rankOf[size_t((z - 1) >> 1)], vertex / 32);
-    }
   }
 
   uint64_t sentBy(uint32_t rank, uint32_t ranks, const BricksLoad& sum, uint64_t seamBelow, const BricksLoads& all) const {

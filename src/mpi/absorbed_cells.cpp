@@ -179,7 +179,7 @@ std::vector<Item> inFirst(Communicator& comm, std::vector<Item> items) {
 
 }  // namespace
 
-std::vector<Absorbed> absorbedCells(Communicator& comm, const CutMesh& common, const RankComplex& complex, double fraction) {
+std::vector<Absorbed> absorbedCells(Communicator& comm, const CutMesh& common, const RankComplex& complex, const MergeOptions& options) {
   std::optional<Known> known;
   comm.together(kDeciding, [&] { known.emplace(complex, comm.rank()); });
   const std::vector<KnownCell> cells = inFirst(comm, std::move(known->cells));
@@ -191,9 +191,6 @@ std::vector<Absorbed> absorbedCells(Communicator& comm, const CutMesh& common, c
     if (comm.rank() > 0) return;
     const Deciding deciding(cells, faces, separated, complex.wholeCutCells);
     faces = {};
-    MergeOptions options;
-    options.threads = 1;
-    options.fraction = fraction;
     const std::vector<uint32_t> first = operators::mergedWith(common, deciding.complex, options);
     for (size_t c = 0; c < cells.size(); ++c) {
       const KnownCell& to = cells[first[c]];

@@ -168,7 +168,7 @@ RankComplex merged(Communicator& comm, const DistributedCut& cut, const RankPiec
   std::optional<std::vector<Absorbed>> absorbed;
   for (int ghosts = usual;; ++ghosts) {
     RankComplex complex = cut.cellComplex(piece, ghosts, merging.coarsening);
-    if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, merging.fraction);
+    if (!absorbed) absorbed = absorbedCells(comm, cut.common().mesh, complex, optionsOf(merging.fraction));
     std::optional<RankMerger> merger;
     bool hasEnough = false;
     comm.together(kMerging, [&] {
