@@ -3,6 +3,7 @@
 
 #include "cut_meshes.h"
 #include "mandoline/cut_share.h"
+#include "mandoline/prepare_share.h"
 
 namespace {
 
@@ -19,27 +20,50 @@ struct KeptShare {
   std::vector<int32_t> gridCellRegion;
 };
 
-/// `mesh` is null where options.prepared is the handle of one.
-val beginShare(const val& mesh, const val& grid, const val& options) {
+ShareOf shareOf(const val& options) { return {options["index"].as<uint32_t>(), options["count"].as<uint32_t>()}; }
+
+/// The search in a mesh that has not been prepared.
+val findPairs(const val& mesh, const val& options) {
   return guarded([&] {
-    PreparedMesh prepared;
-    CutStats stats;
-    if (mesh.isNull()) {
-      prepared = options["prepared"].as<KeptMesh>().get();
-    } else {
-      PrepareOptions prepareOptions;
-      prepareOptions.progress = progressBetween(options, 0, kCutStages);
-      prepareOptions.intersections = Intersections(options["intersections"].as<int>());
-      const Mesh input = fromObject<Mesh>(mesh);
-      PrepareResult result = prepare(input, prepareOptions);
-      if (!result) return failure(result.error, lastStage(result.stats));
-      prepared = std::move(result.mesh);
-      stats = std::move(result.stats);
+    PrepareOptions prepareOptions;
+    prepareOptions.progress = progressBetween(options, 0, kCutStages);
+    prepareOptions.intersections = Intersections(options["intersections"].as<int>());
+    PrepareShare search(shareOf(options), prepareOptions);
+    const val pairs = toArray(search.findPairs(std::make_shared<Mesh>(fromObject<Mesh>(mesh))));
+    return success(object({{"search", val(std::move(search))}, {"pairs", pairs}}));
+  });
+}
+
+/// While what others find is on its way.
+val findEdges(PrepareShare& search) {
+  return guarded([&] {
+    search.findEdges();
+    return success(val::null());
+  });
+}
+
+val begin(const PreparedMesh& mesh, CutStats stats, const val& grid, const val& options) {
+  CutShare share(mesh, readGrid(grid, mesh.mesh()), shareOf(options), {1, progressBetween(options, stats.stages.size(), 0)});
+  const val summary = toArray(share.summary());
+  return success(object({{"share", val(KeptShare{std::move(share), std::move(stats), {}, {}})}, {"summary", summary}}));
+}
+
+val beginShare(const KeptMesh& mesh, const val& grid, const val& options) {
+  return guarded([&] { return begin(mesh.get(), {}, grid, options); });
+}
+
+/// After the search, of which options.pairs lists what each share found.
+val beginSearched(PrepareShare& search, const val& grid, const val& options) {
+  return guarded([&] {
+    std::vector<uint32_t> pairs;
+    const val found = options["pairs"];
+    for (uint32_t i = 0; i < found["length"].as<uint32_t>(); ++i) {
+      std::vector<uint32_t> some;
+      readArray(found[i], some);
+      pairs.insert(pairs.end(), some.begin(), some.end());
     }
-    const ShareOf shareOf{options["index"].as<uint32_t>(), options["count"].as<uint32_t>()};
-    CutShare share(prepared, readGrid(grid, prepared.mesh()), shareOf, {1, progressBetween(options, stats.stages.size(), 0)});
-    const val summary = toArray(share.summary());
-    return success(object({{"share", val(KeptShare{std::move(share), std::move(stats), {}, {}})}, {"summary", summary}}));
+    PrepareResult result = search.resolve(pairs);
+    return begin(result.mesh, std::move(result.stats), grid, options);
   });
 }
 
@@ -86,8 +110,12 @@ val meshOf(const KeptMesh& kept) {
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(shares) {
+  emscripten::class_<PrepareShare>("PrepareShare");
   emscripten::class_<KeptShare>("KeptShare");
+  emscripten::function("findPairs", &findPairs);
+  emscripten::function("findEdges", &findEdges);
   emscripten::function("beginShare", &beginShare);
+  emscripten::function("beginSearched", &beginSearched);
   emscripten::function("keepPart", &keepPart);
   emscripten::function("makePart", &makePart);
   emscripten::function("joinParts", &joinParts);

@@ -79,8 +79,15 @@ struct CutShare::Data {
   }
 
   void takeShare(TakeExcerpt* takeExcerpt) {
-    std::vector<uint64_t> work = workOfLayers(state->surface.input);
-    if (!takeExcerpt) leaveToFirst(work, shareOf.count);
+    const Input& input = state->surface.input;
+    std::vector<uint64_t> work;
+    if (takeExcerpt) {
+      work = workOfLayers(input);
+    } else {
+      constexpr size_t kEnough = 1 << 14;  // triangles that show where the work is: workers share cuts of some 100 ms, where each counts
+      work = workOfLayers(input, uint32_t(input.mesh->triangles.size() / kEnough + 1));
+      leaveToFirst(work, shareOf.count);
+    }
     layers.emplace(state->surface.input, work, shareOf.count);
     takeLayers();
     if (!takeExcerpt) return takeSurface(*state);

@@ -126,9 +126,11 @@ std::vector<uint64_t> LayerWork::perLayer() const {
   return work;
 }
 
-std::vector<uint64_t> workOfLayers(const Input& input) {
+std::vector<uint64_t> workOfLayers(const Input& input, uint32_t every) {
   LayerWork work(input);
-  for (const TriangleId t : input.triangleIds()) {
+  const size_t triangles = input.mesh->triangles.size();
+  for (size_t i = 0; i < triangles; i += every) {
+    const TriangleId t{uint32_t(i)};
     if (!input.kept(t)) continue;
     const auto v = input.verticesOf(t);
     work.add(input.slabs[v[0]], input.slabs[v[1]], input.slabs[v[2]], innerOf(*input.mesh, t));

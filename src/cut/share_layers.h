@@ -26,8 +26,8 @@ class LayerWork {
   std::array<int32_t, 3> cells_;
   std::vector<int64_t> changes_;  // of the work from a layer to the next
 };
-/// That of all triangles: the same in all processes.
-std::vector<uint64_t> workOfLayers(const Input& input);
+/// That of every triangle, or every so many: the same in all processes.
+std::vector<uint64_t> workOfLayers(const Input& input, uint32_t every = 1);
 
 /// The layers of `count` shares: as even in work as whole layers can be.
 class ShareLayers {

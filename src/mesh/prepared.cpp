@@ -223,15 +223,12 @@ void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& m
   arrangeInput(prepared, findContacts(prepared, near, monitor, predicates), preparation.keepContacts, monitor, predicates);
 }
 
-std::vector<TrianglePair> findEdgesAndPairs(Prepared& prepared, const ShareOf& shareOf, Monitor& monitor, Predicates& predicates) {
+std::vector<TrianglePair> findPairs(const Prepared& prepared, const ShareOf& shareOf, Monitor& monitor, Predicates& predicates) {
   std::vector<TrianglePair> pairs;
-  if (shareOf.index >= shareOf.count) {
-    findEdges(prepared, nullptr);
-    return pairs;
-  }
+  if (shareOf.index >= shareOf.count) return pairs;
   const SearchBand band(prepared, shareOf);
-  for (const PairContact& pair :
-       findContacts(prepared, findEdgesAndNear(prepared, band.states(), true, monitor), monitor, predicates).pairs) {
+  const NearTriangles near = findNear(SortedMesh(prepared, band.states()), monitor);
+  for (const PairContact& pair : findContacts(prepared, near, monitor, predicates).pairs) {
     if (band.has(pair.triangles)) pairs.push_back(pair.triangles);
   }
   return pairs;

@@ -97,9 +97,9 @@ std::unique_ptr<Prepared> weldAgain(const MeshView& mesh, double largest, const 
 void dropFlat(Prepared& prepared, const std::vector<uint32_t>* some, Monitor& monitor, Predicates& predicates);
 /// The third: its edges and, unless intersections are assumed to be none, where triangles meet.
 void resolveInput(Prepared& prepared, const Preparation& preparation, Monitor& monitor, Predicates& predicates);
-/// The same in two steps, of which several processes share the search: a share's edges and pairs that meet, and what becomes of the pairs
-/// of all. A share that is not below the count searches nothing.
-std::vector<TrianglePair> findEdgesAndPairs(Prepared& prepared, const ShareOf& shareOf, Monitor& monitor, Predicates& predicates);
+/// The same where several processes share the search: the pairs that meet in a share, those of all with what becomes of them, and between
+/// these the edges, by findInputEdges(). A share that is not below the count searches nothing.
+std::vector<TrianglePair> findPairs(const Prepared& prepared, const ShareOf& shareOf, Monitor& monitor, Predicates& predicates);
 void resolvePairs(Prepared& prepared, const std::vector<TrianglePair>& pairs, const Preparation& preparation, Monitor& monitor,
                   Predicates& predicates);
 /// Of a part of a mesh: finds its edges, but no parts, and whether no triangles are the same and none of those that `states` keep meet.

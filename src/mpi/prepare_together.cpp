@@ -1,6 +1,7 @@
 // Preparing a mesh in all processes of a communicator: what each of them finds of where triangles meet, all learn.
-#include "cut/prepare_share.h"
+#include "cut/driver.h"
 #include "mandoline/distributed.h"
+#include "mandoline/prepare_share.h"
 #include "mpi/communicator.h"
 
 namespace mandoline {
@@ -9,8 +10,8 @@ using namespace detail;
 
 namespace {
 
-PreparedTogether prepareAll(MPI_Comm comm_, const MeshToPrepare& mesh, const PrepareOptions& options,
-                            const std::function<void()>& inFirst) {
+template <class GivenMesh>
+PreparedTogether prepareAll(MPI_Comm comm_, const GivenMesh& mesh, const PrepareOptions& options, const std::function<void()>& inFirst) {
   constexpr const char* kNoun = "preparation";
   Communicator comm(comm_, kNoun, options);
   PrepareResult result;
@@ -25,21 +26,18 @@ PreparedTogether prepareAll(MPI_Comm comm_, const MeshToPrepare& mesh, const Pre
   const int searching = inFirst ? comm.size() - 1 : comm.size();  // from the last on
   const int share = comm.size() - 1 - comm.rank();
   std::optional<PrepareShare> preparing;
-  std::vector<TrianglePair> pairs;
-  std::vector<uint32_t> ids;
+  std::vector<uint32_t> pairs;
   comm.together(kNoun, [&] {
     if (inFirst && comm.rank() == 0) inFirst();
     preparing.emplace(ShareOf{uint32_t(share), uint32_t(searching)}, options);
     pairs = preparing->findPairs(mesh);
-    for (const TrianglePair& pair : pairs) ids.insert(ids.end(), pair.begin(), pair.end());
   });
   comm.requireSame(preparing->fingerprint().value, "mesh");
-  const std::vector<std::vector<uint32_t>> all = comm.gatherAll(ids);
+  const std::vector<std::vector<uint32_t>> all = comm.gatherAll(pairs);
   comm.together(kNoun, [&] {
+    preparing->findEdges();
     pairs.clear();
-    for (const std::vector<uint32_t>& some : all) {
-      for (size_t i = 0; i < some.size(); i += 2) pairs.push_back({some[i], some[i + 1]});
-    }
+    for (const std::vector<uint32_t>& some : all) pairs.insert(pairs.end(), some.begin(), some.end());
     result = preparing->resolve(pairs);
   });
   return {std::move(result.mesh), std::move(result.stats), comm.bytesSent()};

@@ -3,7 +3,6 @@
 import { makeCall } from './api.js';
 import { numbered, readFunction, readGrid, readMesh } from './arguments.js';
 import { buffersOf } from './buffers.js';
-import { callWithMesh } from './calls.js';
 import { Intersections } from './fields.js';
 import { isResult } from './host.js';
 
@@ -12,10 +11,18 @@ const share = { share: asIs, summaries: asIs };
 
 /** The steps, as a table of calls (see calls.js). */
 const steps = {
-  beginShare: {
-    takes: { mesh: { kind: 'prepared', otherwise: readMesh }, grid: readGrid },
+  findPairs: {
+    takes: { mesh: readMesh },
     options: { intersections: numbered(Intersections), index: asIs, count: asIs, progress: readFunction },
-    run: (bindings, ...given) => callWithMesh(bindings, 'beginShare', ...given),
+  },
+  findEdges: { takes: { search: asIs } },
+  beginShare: {
+    takes: { mesh: { kind: 'prepared', otherwise: asIs }, grid: readGrid }, // or the search in one
+    options: { pairs: asIs, index: asIs, count: asIs, progress: readFunction },
+    run: (bindings, mesh, ...given) => {
+      const isPrepared = mesh instanceof bindings.KeptMesh;
+      return isPrepared ? bindings.beginShare(mesh, ...given) : bindings.beginSearched(mesh, ...given);
+    },
   },
   keepPart: { takes: share, options: { gridCellRegion: asIs, progress: readFunction } },
   makePart: { takes: share, options: { reuse: asIs } },
@@ -138,17 +145,25 @@ export class Lead {
   async #cutTogether(host, given) {
     const [mesh, grid, options = {}] = given;
     const { intersections, gridCellRegion = true, keep = true, reuse, progress } = options;
-    const { beginShare, keepPart, joinParts, meshOf } = stepsOn(host);
+    const { findPairs, findEdges, beginShare, keepPart, joinParts, meshOf } = stepsOn(host);
     const mates = [...this.#mates.values()];
     const count = mates.length + 1;
-    const begun = mates.map((mate, i) => {
-      const given = isResult(mesh) ? this.#prepared(host, mesh, mate, meshOf) : { mesh };
-      return mate.ask({ ...given, grid, options: { intersections, index: i + 1, count } });
-    });
+    const askAll = (given) => mates.map((mate, i) => mate.ask({ ...given(mate), options: { intersections, index: i + 1, count } }));
+    const all = async (own, others) => [own, ...(await Promise.all(others)).map(required)];
+    const leading = { index: 0, count, progress };
+    let searched;
     let own;
     try {
-      own = beginShare(mesh, grid, { intersections, index: 0, count, progress });
-      const summaries = [own.summary, ...(await Promise.all(begun)).map(required)];
+      let pairs;
+      if (!isResult(mesh)) {
+        const searching = askAll(() => ({ mesh }));
+        searched = findPairs(mesh, { intersections, ...leading });
+        findEdges(searched.search);
+        pairs = await all(searched.pairs, searching);
+      }
+      const begun = askAll((mate) => ({ grid, pairs, ...(pairs ? {} : this.#prepared(host, mesh, mate, meshOf)) }));
+      own = beginShare(searched?.search ?? mesh, grid, { pairs, ...leading });
+      const summaries = await all(own.summary, begun);
       const made = mates.map((mate) => mate.ask({ summaries }));
       keepPart(own.share, summaries, { gridCellRegion, progress });
       const parts = (await Promise.all(made)).map(required);
@@ -162,6 +177,7 @@ export class Lead {
       for (const mate of mates) mate.tell({ drop: true });
       throw error;
     } finally {
+      searched?.search.delete();
       own?.share.delete();
     }
   }
@@ -180,6 +196,7 @@ export class Lead {
 class Follower {
   #host;
   #steps;
+  #search;
   #share;
   #prepared; // { id, mesh }: the last prepared mesh
   spare = []; // buffers of its last part, which came back
@@ -189,9 +206,10 @@ class Follower {
     this.#steps = stepsOn(host);
   }
 
-  /** Its answer. */
-  answer({ mesh, prepared, grid, options, summaries }) {
-    if (!summaries) return this.#begin(prepared ? this.#find(prepared) : mesh, grid, options);
+  /** Its answer: the pairs of triangles that it found in a mesh, or the summary of its share of a cut, or its part. */
+  answer({ mesh, prepared, pairs, grid, options, summaries }) {
+    if (mesh) return this.#findPairs(mesh, options);
+    if (grid) return this.#begin(prepared ? this.#find(prepared) : this.#search, grid, pairs, options);
     const part = this.#steps.makePart(this.#share, summaries, { reuse: this.spare.splice(0) });
     this.drop();
     return part;
@@ -199,13 +217,30 @@ class Follower {
 
   /** Forgets its share. */
   drop() {
+    this.#search?.delete();
     this.#share?.delete();
-    this.#share = undefined;
+    this.#search = this.#share = undefined;
   }
 
-  #begin(mesh, grid, options) {
+  #findPairs(mesh, options) {
     this.drop();
-    const { share, summary } = this.#steps.beginShare(mesh, grid, options);
+    const { search, pairs } = this.#steps.findPairs(mesh, options);
+    this.#search = search;
+    return pairs;
+  }
+
+  /** What is left to do before it hears what the others found. */
+  goOn() {
+    try {
+      this.#steps.findEdges(this.#search);
+    } catch {
+      this.drop(); // so it has no share when it is asked for that
+    }
+  }
+
+  #begin(mesh, grid, pairs, { index, count }) {
+    const { share, summary } = this.#steps.beginShare(mesh, grid, { pairs, index, count });
+    this.drop();
     this.#share = share;
     return summary;
   }
@@ -231,5 +266,6 @@ export function follow(port, host) {
       answer = follower.answer(data);
     } catch {} // the thread that leads cuts alone, and finds out why
     port.postMessage(answer, buffersOf(answer));
+    if (data.mesh && answer) follower.goOn();
   };
 }

@@ -7,7 +7,7 @@
 //   CutResult result = share.join(parts);                    // in the first; parts: all of them, in order
 #pragma once
 
-#include "mandoline/prepare.h"
+#include "mandoline/prepare_share.h"
 
 namespace MANDOLINE_API mandoline {
 
@@ -17,15 +17,6 @@ struct ShareExcerpt;
 struct ShareInput;
 using TakeExcerpt = std::unique_ptr<ShareExcerpt>(const MeshView& mesh, CutState& state);
 }  // namespace detail
-
-/// One of `count` shares.
-struct ShareOf {
-  uint32_t index = 0, count = 1;
-
-  /// Where the share of so many items begins, and ends, if they are divided as evenly as can be.
-  uint64_t begin(uint64_t items) const { return items * index / count; }
-  uint64_t end(uint64_t items) const { return items * (uint64_t(index) + 1) / count; }
-};
 
 /// What one process found of a cut-mesh.
 struct CutPart {

@@ -8,10 +8,10 @@ namespace mandoline::detail {
 
 SearchBand::SearchBand(const WeldedMesh& mesh, const ShareOf& shareOf) : mesh_(mesh) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  constexpr size_t kSamples = 1 << 16;
-  const size_t step = mesh.triangles.size() / kSamples + 1;
+  constexpr size_t kSamples = 1 << 10;  // for each share
+  const size_t step = mesh.triangles.size() / (kSamples * shareOf.count) + 1;
   Box all = Box::empty();
-  std::vector<std::array<double, 3>> samples;
+  std::vector<Point> samples;
   for (size_t t = 0; t < mesh.triangles.size(); t += step) {
     if (!mesh.kept(t)) continue;
     const Box box = boxOf(mesh, uint32_t(t));
@@ -21,18 +21,22 @@ SearchBand::SearchBand(const WeldedMesh& mesh, const ShareOf& shareOf) : mesh_(m
   for (size_t d = 1; d < 3; ++d) {
     if (all.high[d] - all.low[d] > all.high[axis_] - all.low[axis_]) axis_ = d;
   }
-  sortItems(samples, [&](const auto& a, const auto& b) { return a[axis_] < b[axis_]; });
-  const auto boundary = [&](uint64_t share) { return samples[size_t(samples.size() * share / shareOf.count)][axis_]; };
+  std::vector<double> lowest;
+  for (const Point& sample : samples) lowest.push_back(sample[axis_]);
+  sortItems(lowest);
+  const auto boundary = [&](uint64_t share) { return lowest[size_t(lowest.size() * share / shareOf.count)]; };
   from_ = shareOf.index == 0 || samples.empty() ? -kFar : boundary(shareOf.index);
   to_ = shareOf.index + 1 == shareOf.count || samples.empty() ? kFar : boundary(shareOf.index + 1);
 }
 
 std::vector<TriangleState> SearchBand::states() const {
   std::vector<TriangleState> states = mesh_.states;
-  for (uint32_t t = 0; t < states.size(); ++t) {
+  for (size_t t = 0; t < states.size(); ++t) {
     if (states[t] != TriangleState::kept) continue;
-    const Box box = boxOf(mesh_, t);
-    if (box.low[axis_] >= to_ || box.high[axis_] < from_) states[t] = TriangleState::beside;
+    const auto& v = mesh_.triangles[t];
+    const double a = mesh_.points[v[0]][axis_], b = mesh_.points[v[1]][axis_], c = mesh_.points[v[2]][axis_];
+    const bool reaches = std::min(std::min(a, b), c) < to_ && std::max(std::max(a, b), c) >= from_;
+    if (!reaches) states[t] = TriangleState::beside;
   }
   return states;
 }

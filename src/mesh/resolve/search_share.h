@@ -2,7 +2,7 @@
 // which pairs meet. What these have in common each finds by itself, which is quick.
 #pragma once
 
-#include "mandoline/cut_share.h"
+#include "mandoline/prepare_share.h"
 #include "mesh/resolve/contacts.h"
 
 namespace mandoline::detail {
