@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
+
+#include "mandoline/status.h"
 
 namespace mandoline {
 namespace {
@@ -32,6 +35,11 @@ uint32_t addVertex(Mesh& mesh, const Vector& p) {
 /// Closes rings of vertices, one after the other, to a tube that bites its tail.
 template <class Place>
 Mesh ringOfRings(int rings, int corners, const Place& place) {
+  if (rings < 3 || corners < 3) {
+    throw CallError(
+        {Status::badArgument, -1, -1,
+         "A tube needs at least 3 rings of at least 3 corners, not " + std::to_string(rings) + " of " + std::to_string(corners) + "."});
+  }
   Mesh mesh;
   for (int i = 0; i < rings; ++i) {
     for (int j = 0; j < corners; ++j) addVertex(mesh, place(2 * kPi * i / rings, 2 * kPi * j / corners));

@@ -3,6 +3,7 @@
 
 #include "catch.h"
 #include "mandoline/shapes.h"
+#include "refusal.h"
 #include "shapes.h"
 
 using mandoline::Mesh;
@@ -39,6 +40,18 @@ TEST_CASE("Made torus", "[shapes]") {
   const Mesh torus = mandoline::makeTorus(2, 0.5, 60, 30);
   REQUIRE(torus.triangleCount() == 2 * 60 * 30);
   requireClosedSolid(torus, 2 * kPi * kPi * 2 * 0.25);
+}
+
+TEST_CASE("Made tubes of fewer than three rings or corners are refused", "[shapes]") {
+  for (const int few : {2, 1, 0, -1}) {
+    CAPTURE(few);
+    const std::pair expected(mandoline::Status::badArgument, int64_t(-1));
+    CHECK(refusal([&] { mandoline::makeTorus(2, 0.5, few, 3); }) == expected);
+    CHECK(refusal([&] { mandoline::makeTorus(2, 0.5, 3, few); }) == expected);
+    CHECK(refusal([&] { mandoline::makeTorusKnot(0.4, few, 3); }) == expected);
+    CHECK(refusal([&] { mandoline::makeTorusKnot(0.4, 3, few); }) == expected);
+  }
+  CHECK(mandoline::makeTorus(2, 0.5, 3, 3).triangleCount() == 18);
 }
 
 TEST_CASE("Made torus knot", "[shapes]") {
