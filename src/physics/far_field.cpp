@@ -54,7 +54,7 @@ std::optional<uint32_t> wallOnSide(const CellComplex& cells, const Boundary& bou
   }
   for (const uint32_t h : boundary.halfFaces) {
     if (cells.faceTag[h / 2] < FaceTag::inner || !share.owns(size_t(cells.faceCells[h]))) continue;
-    bool reaches = false;
+    bool reaches = cells.faceCells[h ^ 1] < 0;  // it is in the side: where the surface is all of the box, no face is a side
     forVerticesOf(cells, h / 2, [&](uint32_t v) { reaches |= isOnSide[v] != 0; });
     if (reaches) return h / 2;
   }

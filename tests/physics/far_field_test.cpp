@@ -170,6 +170,16 @@ TEST_CASE("far field: as much flows into the box and into every cell as out of i
   CHECK(solved > 5);
 }
 
+TEST_CASE("far field: a surface that is exactly as large as the box is refused", "[flow][far_field]") {
+  for (const int cells : {1, 4}) {
+    const CellComplex complex = complexOf(shapes::cube(0, cells), unitGrid(cells));
+    const auto [status, face] = refusal([&] { solveFlow(complex, kWind, inFarField()); });
+    CHECK(status == Status::badArgument);
+    REQUIRE((face >= 0 && size_t(face) < complex.faceCount()));
+    CHECK(complex.faceTag[size_t(face)] == FaceTag::surface);
+  }
+}
+
 TEST_CASE("far field: nothing in the wind and a plate edge-on change nothing", "[flow][far_field]") {
   const Mesh plate = shapes::quad({1.5, 1.5, 2.5}, {4.5, 1.5, 2.5}, {4.5, 4.5, 2.5}, {1.5, 4.5, 2.5});
   for (const Mesh& mesh : {shapes::cube(100, 101), plate}) {
