@@ -24,6 +24,7 @@ bool isInsideDefault(const Arguments& arguments) {
 std::vector<NamedFile> filesBesideOutputs(const Arguments& arguments) {
   std::vector<NamedFile> files;
   if (!arguments.mesh.empty() && arguments.mesh != "-") files.push_back({"the mesh", arguments.mesh});
+  if (!arguments.report.empty() && arguments.report != "-") detail::checkPlace(arguments.report);
   if (!arguments.report.empty()) files.push_back({"--report", arguments.report});
   return files;
 }

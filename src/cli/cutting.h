@@ -14,7 +14,8 @@ namespace mandoline::cli {
 /// In the name of an output of cut: one file for each region.
 inline constexpr std::string_view kRegionMark = "{region}";
 
-/// The mesh and the report, which no output may overwrite, nor the report the mesh: for requireDifferent().
+/// The mesh and the report, which no output may overwrite, nor the report the mesh: for requireDifferent(). Throws FileError for a report
+/// in a folder that does not exist.
 std::vector<NamedFile> filesBesideOutputs(const Arguments& arguments);
 
 /// Throws UsageError for an output of a format that is not allowed, `rule` saying which are, for a name with {region}, and if two of the

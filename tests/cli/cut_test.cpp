@@ -73,13 +73,39 @@ TEST_CASE("Command line: a mesh that can't be cut exits with 1 and reports why",
   REQUIRE(contains(text.out, "Not cut: emptyMesh"));
 }
 
-TEST_CASE("Command line: reports and files that can't be written exit with 2", "[cli]") {
+TEST_CASE("Command line: reports that can't be written exit with 2, but do not keep files from it", "[cli]") {
   const TemporaryFolder folder;
-  const std::string mesh = folder.write("cube.obj", kCube), report = folder.path("none/report.json");
-  const Outcome o = run(folder, {"cut", mesh, "--report", report, "-o", folder.path("a.json")});
+  const std::string mesh = folder.write("cube.obj", kCube);
+  const Outcome o = run(folder, {"cut", mesh, "--report", "/dev/full", "-o", folder.path("a.json")});
   REQUIRE(o.exitCode == 2);
-  REQUIRE(contains(o.err, "mandoline: " + report + ": can't be written: No such file or directory"));
+  REQUIRE(contains(o.err, "mandoline: /dev/full: can't be written: No space left on device"));
   REQUIRE(std::filesystem::exists(folder.path("a.json")));
+}
+
+TEST_CASE("Command line: where there is no folder for the report, nothing else is done", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), report = folder.path("none/report.json"), obj = folder.path("a.obj");
+  std::vector<std::vector<std::string>> commands{{"cut", mesh, "-o", obj},
+                                                 {"cut", mesh, "--stream", "-o", folder.path("pieces")},
+                                                 {"slice", mesh, "--heights", "2", "-o", obj},
+                                                 {"boundary", mesh, "-o", obj},
+                                                 {"info", mesh, "-o", obj},
+                                                 {"resolve", mesh, "-o", obj},
+                                                 {"cut", folder.path("missing.obj")}};
+#ifdef MANDOLINE_HAVE_OPERATORS
+  commands.push_back({"flow", mesh, "--cells", "6", "--wind", "1,0,0", "-o", obj});
+  commands.push_back({"flow", mesh, "--cells", "6", "--wind", "1,0,0", "--steps", "1", "-o", folder.path("a.vtu")});
+#endif
+  for (std::vector<std::string>& words : commands) {
+    words.insert(words.end(), {"--report", report});
+    const Outcome o = run(folder, words);
+    CAPTURE(words);
+    CHECK(o.exitCode == 2);
+    CHECK(o.err == "mandoline: " + report + ": there is no folder " + folder.path("none") + "\n");
+    CHECK(o.out.empty());
+  }
+  CHECK(folder.fileCount() == 4);  // the mesh and the standard streams
+  CHECK(contains(run(folder, {"cut", mesh, "--report", folder.path("")}).err, ": is a directory\n"));
 }
 
 TEST_CASE("Command line: a file that can't be written does not keep others from it", "[cli]") {
