@@ -2,6 +2,7 @@
 #include "operators/validate/context.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "base/position_table.h"
@@ -36,14 +37,16 @@ std::vector<uint8_t> isDropped(const CutMesh& cutMesh, size_t triangles) {
   return dropped;
 }
 
-Vec3 roundingOf(const MeshView& mesh, const Coordinates& coordinates, const std::vector<uint8_t>& dropped) {
+Vec3 roundingOf(const MeshView& mesh, const Grid& grid, const Coordinates& coordinates, const std::vector<uint8_t>& dropped) {
+  // The least doubles are all as far from each other, so that half of this may be far more than the usual share of a coordinate.
+  const double least = std::ldexp(std::numeric_limits<double>::denorm_min(), scaleOf(mesh, grid) - 1);
   Vec3 rounding;
   for (int d = 0; d < 3; ++d) {
     double largest = std::max(std::fabs(coordinates.planes[d].front()), std::fabs(coordinates.planes[d].back()));
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
       if (!dropped[i / 3]) largest = std::max(largest, std::fabs(coordinates.triPositions[3 * size_t(mesh.triangles[i]) + size_t(d)]));
     }
-    rounding[d] = kRounding * largest;
+    rounding[d] = std::max(kRounding * largest, least);
   }
   return rounding;
 }
@@ -161,7 +164,7 @@ Context::Context(const MeshView& mesh_, const CutMesh& cutMesh)
       coordinates(scaled(mesh, cut)),
       dropped(isDropped(cut, mesh.triangleCount())),
       weld(welded(mesh, coordinates.triPositions)),
-      rounding(roundingOf(mesh, coordinates, dropped)),
+      rounding(roundingOf(mesh, cut.grid, coordinates, dropped)),
       owner(ownersOf(cut)),
       groups(groupByGridCell(cut)),
       edgesBeyond(findEdgesBeyond(cut, groups, owner)),

@@ -39,6 +39,24 @@ double total(const std::vector<double>& values) {
 
 }  // namespace
 
+TEST_CASE("validate: passes coordinates among the least doubles, and finds what is off there", "[validate]") {
+  for (const int exponent : {-1022, -1030, -1045, -1060, -1068}) {
+    CAPTURE(exponent);
+    Mesh mesh = shapes::noisySphere({0.3, 0.4, 0.5}, 1, 0.1, 2);
+    for (double& x : mesh.positions) x = std::ldexp(x, exponent);
+    const CutResult result = cut(mesh, Grid::around(mesh, 5));
+    REQUIRE(result);
+    for (const Check& check : validate(mesh, result.mesh).checks) {
+      CAPTURE(check.name, check.message);
+      CHECK(check.pass);
+    }
+    if (exponent < -1060) continue;  // as many roundings as the tolerance has are all of the mesh
+    CutMesh damaged = result.mesh;
+    damaged.positions[3 * damaged.loopVertices[0]] += std::ldexp(0.125, exponent);
+    CHECK_FALSE(validate(mesh, damaged).pass);
+  }
+}
+
 TEST_CASE("validation arithmetic: signs are those of rational numbers", "[validate]") {
   for (const Kind kind : kKinds) {
     Sampler sampler(kind, 7);
