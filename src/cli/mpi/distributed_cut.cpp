@@ -31,6 +31,9 @@ class Run {
     read();
     if (const Error error = cut(); error.status != Status::ok) return fail(error);
     if (arguments_.command == Command::flow) return ranks_.comm().reduce(finishFlow(), MPI_MAX);
+    cellOutputs_ = std::count_if(arguments_.outputs.begin(), arguments_.outputs.end(), [&](const std::string& output) {
+      return isPolyMesh(output) || (isPvtu(output) && needsComplex(arguments_));
+    });
     const RankPiece piece = !needsPiece() ? RankPiece() : needsWhole(arguments_) ? cut_->piece() : cut_->takePiece();
     for (const std::string& output : arguments_.outputs) {
       if (isPvtu(output)) writePiece(output, piece);
@@ -190,10 +193,10 @@ class Run {
       options = writeOptions(arguments_, cut_->common());
       static_cast<RunOptions&>(options) = writingOptions();
     });
-    if (needsComplex(arguments_))
-      writePvtu(ranks_, output, cellsOf(piece), options);
-    else
-      writePvtu(ranks_, output, *cut_, piece, options);
+    if (!needsComplex(arguments_)) return writePvtu(ranks_, output, *cut_, piece, options);
+    makeCells(piece);
+    writePvtu(ranks_, output, *cells_, options);
+    if (--cellOutputs_ == 0) cells_.reset();
   }
 
   void writeCase(const std::string& output, const RankPiece& piece) {
@@ -202,15 +205,23 @@ class Run {
     static_cast<RunOptions&>(options) = writingOptions();
     options.simpleCells = arguments_.simpleCells;
     options.groups = &input_.groups;
-    CaseFiles(ranks_, output).write(cellsOf(piece), options);
+    CaseFiles files(ranks_, output);  // refuses before there are cells
+    makeCells(piece);
+    const bool isLast = --cellOutputs_ == 0;
+    RankComplex cells;
+    ranks_.together([&] { cells = isLast ? std::move(*cells_) : *cells_; });
+    if (isLast) cells_.reset();
+    files.write(std::move(cells), options);
   }
 
-  /// As makeCells() of the whole, with the ghosts that what is written of own cells follows from. Takes the groups of triangles.
-  RankComplex cellsOf(const RankPiece& piece) {
+  /// Once for all outputs: as makeCells() of the whole, with the ghosts that what is written of own cells follows from. Takes the groups of
+  /// triangles.
+  void makeCells(const RankPiece& piece) {
     constexpr int kRings = 1;
+    if (cells_) return;
     std::optional<Merging> merging;  // which takes memory
     ranks_.together([&] { merging.emplace(arguments_, input_.groups, RunOptions{arguments_.threads, {}}); });
-    return detail::mergedComplex(ranks_.comm(), *cut_, piece, merging->with(kRings), &merged_);
+    cells_ = detail::mergedComplex(ranks_.comm(), *cut_, piece, merging->with(kRings), &merged_);
   }
 
   /// The first process sends the groups of triangles to the others.
@@ -313,6 +324,8 @@ class Run {
   AskedGrid grid_;
   int failed_ = 0;
   detail::MergedCounts merged_;
+  std::optional<RankComplex> cells_;  // until the last output that needs them has them
+  ptrdiff_t cellOutputs_ = 0;         // that still need them
   std::optional<DistributedCut> cut_;
 };
 

@@ -147,6 +147,38 @@ TEST_CASE("Decomposed cases of a sheet that is in a plane of the grid but for ro
   compareCases(mesh, {"--box", "0,0,0,1,1,1", "--cells", "5", "--merge", "0.2"}, {2, 3});
 }
 
+TEST_CASE("Merged cells of several outputs are made once", "[mpi]") {
+  const TemporaryFolder folder;
+  const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 2));
+  const auto bytesSent = [&](const Names& outputs) {
+    Names words = {"cut", mesh, "--cells", "6", "--merge", "0.2", "--report", folder.path("report.json")};
+    for (const std::string& output : outputs) words.insert(words.end(), {"-o", folder.path(output)});
+    const Outcome outcome = runRanks(folder, 2, words);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exitCode == 0);
+    const std::vector<double> sent = numbersOf(folder.read("report.json"), "bytesSent");
+    REQUIRE(sent.size() == 2);
+    return sent[0] + sent[1];
+  };
+  const auto filesOf = [&](const std::string& suffix) {
+    Names texts;
+    for (const std::string rank : {"0", "1"}) {
+      texts.push_back(folder.read("a" + suffix + "_" + rank + ".vtu"));
+      for (const char* file : {"points", "faces", "owner", "neighbour", "boundary", "faceProcAddressing"})
+        texts.push_back(folder.read("case" + suffix + "/processor" + rank + "/constant/polyMesh/" + file));
+    }
+    return texts;
+  };
+  const double one = bytesSent({"a.pvtu"}), both = bytesSent({"a1.pvtu", "case1/constant/polyMesh"});
+  CAPTURE(one, both);
+  CHECK(both < 1.2 * one);  // most of it is for the merging
+  const Names expected = filesOf("1");
+  for (const std::string& text : expected) REQUIRE_FALSE(text.empty());
+  CHECK(bytesSent({"case2/constant/polyMesh", "a2.pvtu", "case3/constant/polyMesh", "a3.pvtu"}) < 1.5 * one);
+  CHECK(filesOf("2") == expected);
+  CHECK(filesOf("3") == expected);
+}
+
 TEST_CASE("A disk that is full for one process leaves no case", "[mpi]") {
   const TemporaryFolder folder;
   const std::string mesh = meshFile(folder, shapes::icosphere({0, 0, 0}, 1, 3)), full = "case/processor1/constant/polyMesh/faces";
