@@ -281,6 +281,22 @@ test('a worker that turns out not to start does not take the place of the one af
   assert.equal(workers.length, 2);
 });
 
+test('of a mesh that a worker lacks again, or that is no longer there to be given, the page says so', async () => {
+  const given = [];
+  const lacking = async () => ({
+    async call(name, [ask]) {
+      if (name !== 'keep') throw { lacksMesh: 7 };
+      given.push(ask);
+    },
+    terminate() {},
+  });
+  const said = { title: "The mesh can't be cut", detail: 'Another mesh has taken the place of its own.' };
+  await assert.rejects(new Thread(lacking, (id) => ({ id })).call('cut', null), said);
+  assert.deepEqual(given, [{ id: 7 }]);
+  await assert.rejects(new Thread(lacking, () => undefined).call('cut', null), said);
+  assert.equal(given.length, 1);
+});
+
 test('where the code can not be written for lack of its module the page says so, and loads it when the panel is opened again', async (t) => {
   const page = await site.newPage(t, { expectedProblem: /ERR_FAILED/ });
   await page.route(/\/code-.*\.js/, (route) => route.abort());

@@ -1,6 +1,6 @@
 // What went wrong, as the page shows it.
 import { describe, MandolineError } from 'mandoline-wasm/worker';
-import type { CallName, WindCallName } from '../model/calls';
+import { isLack, type CallName, type WindCallName } from '../model/calls';
 import { isPageError, pageError, type PageError } from '../model/failure';
 
 const titles: Record<CallName | WindCallName, string> = {
@@ -30,13 +30,18 @@ const titles: Record<CallName | WindCallName, string> = {
 
 /** Of what was thrown anywhere. */
 export function asPageError(error: unknown): PageError {
-  return isPageError(error) ? error : pageError('Something went wrong', error instanceof Error ? error.message : String(error));
+  return isPageError(error) ? error : pageError('Something went wrong', detailOf(error));
+}
+
+function detailOf(error: unknown): string {
+  if (isLack(error)) return 'Another mesh has taken the place of its own.';
+  return error instanceof Error ? error.message : String(error);
 }
 
 /** Of what a call of the worker threw. */
 export function toPageError(error: unknown, call: CallName | WindCallName): PageError {
   if (isPageError(error)) return error;
-  if (!(error instanceof MandolineError)) return pageError(titles[call], error instanceof Error ? error.message : String(error));
+  if (!(error instanceof MandolineError)) return pageError(titles[call], detailOf(error));
   return pageError(error.code === 'loadFailed' ? "The cutter can't be started" : titles[call], describe(error));
 }
 
