@@ -279,6 +279,12 @@ class Parser {
 
 }  // namespace
 
+void refuseOptions(RefusedOptions options, const std::string& before, const std::string& after) {
+  for (const auto& [isGiven, name] : options) {
+    if (isGiven) throw UsageError(before + name + after);
+  }
+}
+
 Arguments parseArguments(const std::vector<std::string>& words) { return Parser(words).parse(); }
 
 }  // namespace mandoline::cli

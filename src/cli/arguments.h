@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mandoline/io.h"
@@ -90,6 +92,11 @@ struct Arguments {
   std::vector<std::string> outputs;  ///< paths, "-" for standard output
   std::optional<FileFormat> format;  ///< of standard output
 };
+
+/// Options that do not go with what is asked for, and whether they are given.
+using RefusedOptions = std::initializer_list<std::pair<bool, std::string>>;
+/// Throws UsageError for the first of them that is given, its name between the two texts.
+void refuseOptions(RefusedOptions options, const std::string& before, const std::string& after);
 
 /// The words after the program's name. Throws UsageError, and FileError for a file of planes.
 Arguments parseArguments(const std::vector<std::string>& words);

@@ -52,18 +52,16 @@ void checkArguments(const Arguments& arguments) {
   if (formatOf(folder) || isPolyMesh(folder) || folder.find(kRegionMark) != std::string::npos)
     throw UsageError("-o " + folder + ": --stream writes a folder of .vtu files");
   const OnlyArguments& only = arguments.only;
-  const std::pair<bool, const char*> others[] = {{arguments.validate, "--validate"},
-                                                 {arguments.coarsen.has_value(), "--coarsen"},
-                                                 {arguments.merge.has_value(), "--merge"},
-                                                 {arguments.uniteWalls.has_value(), "--unite-walls"},
-                                                 {arguments.faces, "--faces"},
-                                                 {arguments.insideThreshold.has_value(), "--inside-threshold"},
-                                                 {arguments.refines(), arguments.refineOption()},
-                                                 {arguments.snapTolerance > 0, "--snap-tolerance"},
-                                                 {only.inside || only.outside || !only.regions.empty(), "--only other than cut"}};
-  for (const auto& [isGiven, name] : others) {
-    if (isGiven) throw UsageError(std::string("--stream does not go with ") + name + ", which needs the whole cut");
-  }
+  refuseOptions({{arguments.validate, "--validate"},
+                 {arguments.coarsen.has_value(), "--coarsen"},
+                 {arguments.merge.has_value(), "--merge"},
+                 {arguments.uniteWalls.has_value(), "--unite-walls"},
+                 {arguments.faces, "--faces"},
+                 {arguments.insideThreshold.has_value(), "--inside-threshold"},
+                 {arguments.refines(), arguments.refineOption()},
+                 {arguments.snapTolerance > 0, "--snap-tolerance"},
+                 {only.inside || only.outside || !only.regions.empty(), "--only other than cut"}},
+                "--stream does not go with ", ", which needs the whole cut");
   std::vector<NamedFile> files = filesBesideOutputs(arguments);
   files.push_back({"-o", folder});
   requireDifferent(files);

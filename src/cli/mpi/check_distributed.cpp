@@ -19,16 +19,14 @@ namespace {
 void checkPieces(const Arguments& arguments, const std::string& output) {
   const OnlyArguments& only = arguments.only;
   const bool isCase = isPolyMesh(output);
-  const std::pair<bool, const char*> others[] = {{arguments.refines(), arguments.refineOption()},
-                                                 {arguments.faces, "--faces"},
-                                                 {arguments.insideThreshold.has_value(), "--inside-threshold"},
-                                                 {only.inside || only.outside, "--only inside and outside"},
-                                                 {isCase && only.any(), "--only"}};
   const std::string kind = isCase ? "polyMeshes of several processes" : ".pvtu files";
   if (output.find(kRegionMark) != std::string::npos) throw UsageError("-o " + output + ": " + kind + " have all regions");
-  for (const auto& [isGiven, name] : others) {
-    if (isGiven) throw UsageError("-o " + output + ": " + kind + " do not go with " + name + ": that needs the whole cut");
-  }
+  refuseOptions({{arguments.refines(), arguments.refineOption()},
+                 {arguments.faces, "--faces"},
+                 {arguments.insideThreshold.has_value(), "--inside-threshold"},
+                 {only.inside || only.outside, "--only inside and outside"},
+                 {isCase && only.any(), "--only"}},
+                "-o " + output + ": " + kind + " do not go with ", ": that needs the whole cut");
 }
 
 /// A folder of pieces has all of the cut, as any .mcm file, and nothing that is made of it.

@@ -85,11 +85,8 @@ Flow flowOf(const std::vector<Values>& all, const CellComplex& cells, const std:
 
 void checkDistributedFlow(const Arguments& arguments) {
   checkFlowOutputs(arguments);
-  const std::pair<bool, const char*> others[] = {{arguments.refines(), arguments.refineOption()},
-                                                 {arguments.flow.steps.has_value(), "--steps"}};
-  for (const auto& [isGiven, name] : others) {
-    if (isGiven) throw UsageError(std::string(name) + ": a flow of several processes has none; mandoline flow does");
-  }
+  refuseOptions({{arguments.refines(), arguments.refineOption()}, {arguments.flow.steps.has_value(), "--steps"}}, "",
+                ": a flow of several processes has none; mandoline flow does");
 }
 
 SolveCells solveDistributed(Ranks& ranks, const Arguments& arguments, const DistributedCut& cut, const TriangleGroups& groups) {

@@ -48,17 +48,15 @@ std::vector<uint32_t> takeRanks(std::vector<std::string>& words) {
 }
 
 void checkPlanArguments(const Arguments& arguments) {
-  const std::pair<bool, const char*> others[] = {{!arguments.outputs.empty(), "-o"},
-                                                 {arguments.stream, "--stream"},
-                                                 {arguments.snapTolerance > 0, "--snap-tolerance"},
-                                                 {arguments.validate, "--validate"},
-                                                 {arguments.only.any() || arguments.insideThreshold, "--only and --inside-threshold"},
-                                                 {arguments.coarsen || arguments.faces, "--coarsen and --faces"},
-                                                 {arguments.merge || arguments.uniteWalls, "--merge and --unite-walls"},
-                                                 {arguments.refines(), "--refine and --refine-box"}};
-  for (const auto& [isGiven, name] : others) {
-    if (isGiven) throw UsageError(std::string(name) + ": a plan is that of cut alone");
-  }
+  refuseOptions({{!arguments.outputs.empty(), "-o"},
+                 {arguments.stream, "--stream"},
+                 {arguments.snapTolerance > 0, "--snap-tolerance"},
+                 {arguments.validate, "--validate"},
+                 {arguments.only.any() || arguments.insideThreshold, "--only and --inside-threshold"},
+                 {arguments.coarsen || arguments.faces, "--coarsen and --faces"},
+                 {arguments.merge || arguments.uniteWalls, "--merge and --unite-walls"},
+                 {arguments.refines(), "--refine and --refine-box"}},
+                "", ": a plan is that of cut alone");
 }
 
 /// What there is to tell of a number of processes: the most that one of them has.
