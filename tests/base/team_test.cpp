@@ -35,7 +35,7 @@ TEST_CASE("team: who has begun is waited for") {
     std::atomic<int> begun{0}, done{0};
     team.run(4, [&](size_t) {
       const int mine = begun++;
-      for (int i = 0; mine > 0 && i < 100; ++i) detail::yieldThread();
+      for (int i = 0; mine > 0 && i < 10; ++i) detail::yieldThread();
       ++done;
     });
     CHECK(done == begun);
@@ -65,7 +65,7 @@ TEST_CASE("team: each thread has a number of its own, and the caller 0") {
     team.run(3, [&](size_t thread) {
       ++calls.at(thread);
       if (++busy[thread] != 1) isShared = true;
-      for (int i = 0; i < 100; ++i) detail::yieldThread();
+      for (int i = 0; i < 10; ++i) detail::yieldThread();
       --busy[thread];
     });
     CHECK(calls[0] == 1);

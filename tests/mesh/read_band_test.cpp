@@ -34,23 +34,24 @@ BandTriangles bandOf(const Mesh& mesh, const Band& band) {
       at->second = std::min(at->second, v);
     }
   }
-  std::set<uint32_t> vertices;
+  std::map<uint32_t, uint32_t> vertices;  // and their numbers in the part
   for (size_t t = 0; t < mesh.triangleCount(); ++t) {
     const auto corners = cornersOf(t);
     if (std::none_of(corners.begin(), corners.end(), [&](uint32_t v) { return within.count(placeOf(mesh, v)) > 0; })) continue;
     out.part.triangles.push_back(uint32_t(t));
     out.part.corners.insert(out.part.corners.end(), corners.begin(), corners.end());
     out.isWithin.push_back(reaches[t]);
-    vertices.insert(corners.begin(), corners.end());
+    for (const uint32_t v : corners) vertices[v] = 0;
   }
-  for (const uint32_t v : vertices) {
+  for (auto& [v, number] : vertices) {
     const Place place = placeOf(mesh, v);
+    number = uint32_t(out.part.vertices.size());
     out.part.vertices.push_back(v);
     out.part.positions.insert(out.part.positions.end(), place.begin(), place.end());
     out.isComplete.push_back(within.count(place) > 0);
     out.lowest.push_back(lowest[place]);
   }
-  for (uint32_t& corner : out.part.corners) corner = uint32_t(std::distance(vertices.begin(), vertices.find(corner)));
+  for (uint32_t& corner : out.part.corners) corner = vertices[corner];
   return out;
 }
 
