@@ -261,6 +261,7 @@ class Parser {
     if (given_.count("--axis") + given_.count("--normal") > 1) throw UsageError("only one of --axis and --normal");
     if (a.command == Command::slice) checkSlice(a.slice, a.only);
     if (a.faces && a.simpleCells) throw UsageError("--simple-cells does not go with --faces, which writes no cells");
+    if (a.only.all && a.command != Command::cut) throw UsageError("--only all: only cut leaves regions out, of polyMeshes");
     if (a.command == Command::boundary && a.only.cut) throw UsageError("--only cut: a boundary is that of whole regions");
     if (a.command == Command::flow) checkFlow(a.flow);
     checkRefine(a);

@@ -37,6 +37,7 @@ struct GridArguments {
 /// Which part of the cut-mesh is written: what meets all of the conditions given.
 struct OnlyArguments {
   bool cut = false, inside = false, outside = false;
+  bool all = false;  ///< regions that would be left out, too
   std::vector<uint32_t> regions;
 
   bool any() const { return cut || inside || outside || !regions.empty(); }

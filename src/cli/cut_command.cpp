@@ -1,9 +1,12 @@
 #include "cli/cut_command.h"
 
+#include <iostream>
+
 #include "cli/commands.h"
 #include "cli/cutting.h"
 #include "cli/files.h"
 #include "cli/interrupt.h"
+#include "io/poly_mesh.h"
 #include "mandoline/measure.h"
 
 namespace mandoline::cli {
@@ -66,7 +69,10 @@ class Writer {
       options.groups = &input_.groups;
       if (isFolder) {
         const DeferInterrupts defer;
-        return writePolyMesh(output.path, cutMesh, *complex, options);
+        writePolyMesh(output.path, cutMesh, *complex, options);
+        if (mergeFraction(arguments_) > 0 && options.regions.empty())
+          noteLeftOut(output.path, detail::regionsAtSides(cutMesh.regionCount, *complex));
+        return;
       }
       writeOutput(output.path, [&](const Sink& sink) {
         if (!ofComplex) return writeCutMesh(sink, *format, input_.mesh, cutMesh, options);
@@ -100,6 +106,14 @@ void complainOf(const Report& report, int& exitCode) {
 
 bool needsComplex(const Arguments& arguments) {
   return arguments.coarsen || arguments.merge || arguments.uniteWalls || arguments.refines();
+}
+
+void noteLeftOut(const std::string& path, const std::vector<uint8_t>& atSides) {
+  const size_t leftOut = detail::countLeftOut(atSides);
+  if (leftOut == 0) return;
+  std::cerr << "Note: " << path << " is without " << leftOut << " of " << atSides.size()
+            << " regions: no side of the grid bounds them, and OpenFOAM's solvers stop where nothing holds the pressure. --only all writes "
+               "these, too\n";
 }
 
 void checkCutOutputs(const Arguments& arguments) {

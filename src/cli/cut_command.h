@@ -12,6 +12,9 @@ void checkCutOutputs(const Arguments& arguments);
 /// Whether files of cells have those of a cell complex.
 bool needsComplex(const Arguments& arguments);
 
+/// Says which part of a polyMesh of merged cells is left out, if there is one. `atSides`: see detail::regionsAtSides().
+void noteLeftOut(const std::string& path, const std::vector<uint8_t>& atSides);
+
 /// What was asked for.
 struct CutJob {
   const Arguments& arguments;

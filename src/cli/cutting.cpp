@@ -186,7 +186,7 @@ WriteOptions writeOptions(const Arguments& arguments, const CutResult& cut) {
   WriteOptions options;
   options.untouched = !only.cut;
   options.simpleCells = arguments.simpleCells;
-  if (!only.inside && !only.outside && only.regions.empty()) return options;
+  if (!only.inside && !only.outside && !only.all && only.regions.empty()) return options;
   options.regions.assign(cutMesh.regionCount, only.regions.empty() ? 1 : 0);
   for (const uint32_t r : only.regions) {
     if (r >= cutMesh.regionCount) {

@@ -64,7 +64,7 @@ Options of cut
                            .obj   the cut surface as polygons, one group per region
                            .stl   the cut surface in triangles
                            .ply   the same with the region and group of each triangle
-                         A folder called polyMesh, as in case/constant/polyMesh, gets all
+                         A folder called polyMesh, as in case/constant/polyMesh, gets the
                          cells for OpenFOAM, with the patches xMin ... zMax and surface,
                          or one for each group of an OBJ file (g, else usemtl) or solid
                          of an STL file.
@@ -72,7 +72,9 @@ Options of cut
   --only WHAT            write only a part of it (not of .json and .mcm). Words with commas
                          between must all hold: cut (no untouched grid cells), inside (winding
                          number not 0, or by parity, or by an estimate where the mesh is open;
-                         a note tells which), outside (the rest), region=K (of several, any).
+                         a note tells which), outside (the rest), region=K (of several, any),
+                         all (of a polyMesh of merged cells also regions that no side of the
+                         grid bounds: left out, since solvers stop in them; a note tells).
                          With regions left out, a surface is the whole boundary of each region
                          written, oriented out of it
   --inside-threshold T   estimate what is inside of open parts, which divides regions at

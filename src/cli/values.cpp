@@ -108,10 +108,12 @@ void parseOnly(const std::string& word, OnlyArguments& only) {
       only.inside = true;
     } else if (part == "outside") {
       only.outside = true;
+    } else if (part == "all") {
+      only.all = true;
     } else if (part.starts_with("region=") && parseNumber(std::string_view(part).substr(7), region)) {
       only.regions.push_back(region);
     } else {
-      throw UsageError("--only needs cut, inside, outside or region=K, not '" + part + "'");
+      throw UsageError("--only needs cut, inside, outside, region=K or all, not '" + part + "'");
     }
   }
 }

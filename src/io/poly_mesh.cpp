@@ -77,6 +77,22 @@ PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const Tr
   return mesh;
 }
 
+std::vector<uint8_t> regionsAtSides(uint32_t regionCount, const CellComplex& cells) {
+  std::vector<uint8_t> atSides(regionCount);
+  for (size_t f = 0; f < cells.faceCount(); ++f) {
+    if (cells.faceTag[f] >= FaceTag::inner) continue;
+    for (const int32_t cell : {cells.faceCells[2 * f], cells.faceCells[2 * f + 1]}) {
+      if (cell >= 0) atSides[cells.cellRegion[size_t(cell)]] = 1;
+    }
+  }
+  return atSides;
+}
+
+size_t countLeftOut(const std::vector<uint8_t>& atSides) {
+  const size_t others = size_t(std::count(atSides.begin(), atSides.end(), uint8_t(0)));
+  return others < atSides.size() ? others : 0;
+}
+
 void dropEmptySides(PolyMesh& mesh, const ComplexPolygons& polygons) {
   const auto drop = [&](std::vector<PolySide>& sides) {
     std::erase_if(sides, [&](const PolySide& side) { return polygons.isEmpty(side.halfFace / 2); });

@@ -70,6 +70,12 @@ struct PolyMesh {
 MANDOLINE_SHARED PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const TriangleGroups* groups, bool simpleCells,
                                        FunctionRef<bool(size_t cell)> isWritten);
 
+/// Per region 1 if a cell of it is at a side of the grid, else 0.
+MANDOLINE_SHARED std::vector<uint8_t> regionsAtSides(uint32_t regionCount, const CellComplex& cells);
+
+/// How many regions of merged cells are left out, of those at sides of the grid: the others, if there are both.
+MANDOLINE_SHARED size_t countLeftOut(const std::vector<uint8_t>& atSides);
+
 /// Drops the sides of faces that have no polygons, and the patch `inner` if it has no others.
 MANDOLINE_SHARED void dropEmptySides(PolyMesh& mesh, const ComplexPolygons& polygons);
 

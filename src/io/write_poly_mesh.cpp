@@ -153,19 +153,33 @@ void writeFiles(const FolderSink& sink, const PolyFiles& files, const RunOptions
 
 }  // namespace detail
 
+namespace {
+
+/// The options, with regions chosen of merged cells if none are.
+WriteOptions withRegions(const CutMesh& cutMesh, const CellComplex& cells, WriteOptions options) {
+  const bool isMerged = !cells.cellMemberOffsets.empty();
+  if (!isMerged || !options.regions.empty()) return options;
+  std::vector<uint8_t> atSides = detail::regionsAtSides(cutMesh.regionCount, cells);
+  if (detail::countLeftOut(atSides) > 0) options.regions = std::move(atSides);
+  return options;
+}
+
+}  // namespace
+
 void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
-  const detail::Selection selection(cutMesh, options);
+  detail::Selection(cutMesh, options);  // checks them
   detail::runCall("writing", [&] {
+    const bool isMerged = !cells.cellMemberOffsets.empty();
     const TriangleGroups* const groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     detail::ComplexPolygons polygons(cutMesh, cells);
-    const bool isMerged = !cells.cellMemberOffsets.empty();
+    const WriteOptions chosen = withRegions(cutMesh, cells, options);
     detail::PolygonSharing alone;
     if (isMerged) {
       detail::collapseFlatPolygons(cells, polygons, alone);
       detail::dividePolygonsNotSeen(cells, polygons);
     }
     detail::PolyMesh mesh = detail::makePolyMesh(cutMesh, cells, groups, options.simpleCells, [&](size_t cell) {
-      return selection.has(cells.cellRegion[cell]) && (options.untouched || cell < cells.cutCells) &&
+      return chosen.hasRegion(cells.cellRegion[cell]) && (options.untouched || cell < cells.cutCells) &&
              !(isMerged && detail::isEnclosedByWalls(cells, polygons, cell));
     });
     if (isMerged) detail::dropEmptySides(mesh, polygons);

@@ -139,7 +139,8 @@ TEST_CASE("Command line: cells refined where the mesh bends and in boxes", "[cli
   const size_t inBox = cells({"--refine-box", "0,0,0,1.1,1.1,1.1,2"});
   CHECK(plain < inBox);
   CHECK(inBox < cells({"--refine-box", "0,0,0,1.1,1.1,1.1,2", "--refine-box=2,2,2,4,4,4,1"}));
-  const Outcome o = run(folder, {"cut", mesh, "--cells", "8", "--refine", "1", "--coarsen", "1", "--merge", "0.2", "-o", foam, vtu});
+  const Outcome o =
+      run(folder, {"cut", mesh, "--cells", "8", "--refine", "1", "--coarsen", "1", "--merge", "0.2", "--only", "all", "-o", foam, vtu});
   CHECK(o.err.empty());
   CHECK(o.exitCode == 0);
   CHECK(contains(folder.read("polyMesh/faces"), "FoamFile"));
@@ -169,6 +170,31 @@ TEST_CASE("Command line: small cells merged, and how many stay small", "[cli]") 
   CHECK(contains(flow({}), "\"merge\": {\"before\": 151, "));
   CHECK(contains(flow({"--merge", "0"}), "\"merge\": null"));
   CHECK(contains(flow({"--merge", "0"}), "\"cells\": 151, "));
+}
+
+TEST_CASE("Command line: polyMeshes of merged cells are without what no side of the grid bounds, unless all is asked for", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("cube.obj", kCube), foam = folder.path("polyMesh"), vtu = folder.path("a.vtu");
+  const auto cut = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"cut", mesh, "--origin", "-0.9,-0.9,-0.9", "--spacing", "1", "--cells", "5", "--report", "-", "-o", foam});
+    const Outcome o = run(folder, words);
+    CAPTURE(o.err);
+    REQUIRE(o.exitCode == 0);
+    return o.err;
+  };
+  const auto hasInside = [&] { return contains(folder.read("polyMesh/cellZones"), "region1\n"); };
+  const std::string note = "polyMesh is without 1 of 2 regions: no side of the grid bounds them";
+  CHECK_FALSE(contains(cut({"--merge", "0.2", "--only", "all"}), "Note:"));
+  CHECK(hasInside());
+  std::filesystem::remove_all(foam);
+  CHECK(contains(cut({"--merge", "0.2"}), note));
+  CHECK_FALSE(std::filesystem::exists(folder.path("polyMesh/cellZones")));
+  CHECK_FALSE(contains(cut({"--merge", "0.2", "--only", "inside"}), note));
+  CHECK_FALSE(contains(cut({}), note));
+  CHECK(hasInside());
+  const Outcome flow = run(folder, {"flow", mesh, "--wind", "1,0,0", "--cells", "8", "--only", "all", "-o", vtu});
+  CHECK(flow.exitCode == 2);
+  CHECK(contains(flow.err, "--only all: only cut leaves regions out, of polyMeshes"));
 }
 
 TEST_CASE("Command line: groups of the input are patches, and stay through resolve", "[cli]") {

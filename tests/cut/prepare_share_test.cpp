@@ -84,7 +84,7 @@ TEST_CASE("Each pair is found by one share", "[shares]") {
 }
 
 TEST_CASE("A mesh whose triangles meet is refused by all shares, whoever found them", "[shares]") {
-  const Mesh mesh = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 3), shapes::icosphere({5, 0, 0}, 1, 2), shapes::cube(4.5, 6)});
+  const Mesh mesh = shapes::merged({shapes::icosphere({0, 0, 0}, 1, 3), shapes::icosphere({5, 5, 5}, 1, 2), shapes::cube(4.5, 6)});
   const Error expected = prepare(mesh, with(Intersections::refuse)).error;
   REQUIRE(expected.status == Status::selfIntersection);
   PrepareShare first({0, 2}, with(Intersections::refuse)), second({1, 2}, with(Intersections::refuse));

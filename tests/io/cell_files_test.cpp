@@ -45,7 +45,14 @@ struct PolyMesh {
   std::vector<Patch> patches;
   std::vector<std::pair<std::string, size_t>> zones;  ///< names and numbers of cells
 
-  size_t cellCount() const { return owner.empty() ? 0 : *std::max_element(owner.begin(), owner.end()) + 1; }
+  /// The last one may be an owner of no face.
+  size_t cellCount() const {
+    size_t count = 0;
+    for (const std::vector<size_t>* cells : {&owner, &neighbour}) {
+      for (const size_t c : *cells) count = std::max(count, c + 1);
+    }
+    return count;
+  }
   const Patch& patch(const std::string& name) const {
     return *std::find_if(patches.begin(), patches.end(), [&](const Patch& p) { return p.name == name; });
   }
@@ -217,6 +224,17 @@ struct Merged : Cells {
         open.push_back(c);
     }
   }
+
+  WriteOptions allRegions() const { return regions(std::vector<uint8_t>(cutMesh.regionCount, 1)); }
+  static WriteOptions regions(std::vector<uint8_t> flags) {
+    WriteOptions options;
+    options.regions = std::move(flags);
+    return options;
+  }
+  /// Those with a side that is no wall, of one region.
+  size_t openCellsOf(uint32_t region) const {
+    return size_t(std::count_if(open.begin(), open.end(), [&](uint32_t c) { return complex.cellRegion[c] == region; }));
+  }
 };
 
 double areaOf(const PolyMesh& mesh, size_t face) {
@@ -240,8 +258,8 @@ TEST_CASE("polyMesh: merged cells are sound and of the right volumes on all case
     for (const int levels : {0, 24}) {
       INFO(c.name << " with levels " << levels);
       const Merged cells(c.mesh, c.grid, levels);
-      const PolyMesh mesh = writtenPolyMesh(cells);
-      requireVolumes(mesh, cells.complex, cells.open);
+      requireVolumes(writtenPolyMesh(cells, cells.allRegions()), cells.complex, cells.open);
+      writtenPolyMesh(cells);
     }
   }
 }
@@ -345,7 +363,7 @@ TEST_CASE("polyMesh: of merged cells, faces of the grid are divided if their cen
   const Mesh cubes = shapes::merged({shapes::cube(1.125, 2.75), shapes::cube(3.375, 4.375)});  // faces that are thin L's
   for (const Mesh& mesh : {cubes, kShell}) {
     const Merged cells(mesh, Grid::box({-2, -2, -2}, {6, 6, 6}, {8, 8, 8}), 0);
-    const PolyMesh written = writtenPolyMesh(cells);
+    const PolyMesh written = writtenPolyMesh(cells, cells.allRegions());
     requireVolumes(written, cells.complex, cells.open);
     for (size_t f = 0; f < written.patch("surface").start; ++f) {
       CHECK(leastSeen(written, f, centreOf(written, f)) > 0);
@@ -364,6 +382,36 @@ TEST_CASE("polyMesh: of merged cells, one that is enclosed by walls is left out"
   CHECK(mesh.patches.back().name == "surface");
   // Only what is outside has walls.
   CHECK(mesh.patches.back().faces == 12);
+}
+
+TEST_CASE("polyMesh: of merged cells, regions that no side of the grid bounds are left out unless they are asked for", "[cellfiles]") {
+  const Merged cells(kShell, Grid::box({-2, -2, -2}, {2, 2, 2}, {16, 16, 16}), 2);
+  REQUIRE(cells.cutMesh.regionCount == 3);
+  const PolyMesh around = writtenPolyMesh(cells), all = writtenPolyMesh(cells, cells.allRegions());
+  CHECK(around.cellCount() == cells.openCellsOf(0));
+  CHECK(around.zones.empty());
+  CHECK(all.cellCount() == cells.open.size());
+  CHECK(all.zones.size() == 3);
+  CHECK(writtenPolyMesh(cells, Merged::regions({0, 1, 1})).cellCount() == cells.openCellsOf(1) + cells.openCellsOf(2));
+  double volume = 0;
+  for (const double v : volumes(around)) volume += v;
+  double expected = 0;
+  for (const uint32_t c : cells.open) expected += cells.complex.cellRegion[c] == 0 ? cells.complex.cellVolume[c] : 0;
+  CHECK(volume == Approx(expected).epsilon(1e-12));
+  CHECK(around.patch("surface").faces < all.patch("surface").faces);
+  // Cells that are not merged are not for solvers.
+  CHECK(writtenPolyMesh(Cells(kShell, Grid::box({-2, -2, -2}, {2, 2, 2}, {16, 16, 16}), 2)).zones.size() == 3);
+}
+
+TEST_CASE("polyMesh: of merged cells, an inside that reaches a side of the grid, or that is all there is, stays", "[cellfiles]") {
+  const Merged duct(shapes::box({-1, 1.3, 1.3}, {5, 2.7, 2.7}), Grid::box({0, 0, 0}, {4, 4, 4}, {8, 8, 8}), 0);
+  CHECK(writtenPolyMesh(duct).cellCount() == duct.open.size());
+  CHECK(writtenPolyMesh(duct).zones.size() == 2);
+  // Triangles lie in all sides.
+  const Merged full(shapes::merged({shapes::cube(0, 4), shapes::flipped(shapes::cube(1.2, 2.8))}),
+                    Grid::box({0, 0, 0}, {4, 4, 4}, {8, 8, 8}), 0);
+  CHECK(writtenPolyMesh(full).cellCount() == full.open.size());
+  CHECK(writtenPolyMesh(full).zones.size() == 2);
 }
 
 TEST_CASE("polyMesh: patches of the box's sides and of both sides of the surface", "[cellfiles]") {

@@ -5,6 +5,7 @@
 
 #include "base/sort.h"
 #include "cli/arguments.h"
+#include "cli/cut_command.h"
 #include "cli/mpi/case_numbers.h"
 #include "cli/mpi/rank_polygons.h"
 #include "io/flat_polygons.h"
@@ -37,7 +38,8 @@ bool isMerged(const CellComplex& cells) { return !cells.cellMemberOffsets.empty(
 PolyMesh ownMesh(const RankComplex& complex, const detail::ComplexPolygons& polygons, const WriteOptions& options, int rank) {
   const TriangleGroups* const groups = detail::checkedGroups(options.groups, complex.cutMesh.triangleCount);
   PolyMesh mesh = detail::makePolyMesh(complex.cutMesh, complex.cells, groups, options.simpleCells, [&](size_t c) {
-    return complex.cellRanks[c] == rank && !(isMerged(complex.cells) && detail::isEnclosedByWalls(complex.cells, polygons, c));
+    return complex.cellRanks[c] == rank && options.hasRegion(complex.cells.cellRegion[c]) &&
+           !(isMerged(complex.cells) && detail::isEnclosedByWalls(complex.cells, polygons, c));
   });
   std::erase_if(mesh.patches,
                 [&](const PolyPatch& patch) { return &patch - mesh.patches.data() == ptrdiff_t(FaceTag::inner) && patch.name == "inner"; });
@@ -127,8 +129,10 @@ void CaseFiles::addSeams(const RankComplex& complex, PolyMesh& mesh) const {
     detail::sortItems(faces, [](const Ordered& a, const Ordered& b) { return a.cells < b.cells; });
     for (const Ordered& face : faces) {
       const int32_t owner = cells.faceCells[face.halfFace];
+      if (mesh.cellNumbers[size_t(owner)] == PolySide::kLeftOut) continue;  // and so is what is beyond, of the same region
       patch.sides.push_back({mesh.cellNumbers[size_t(owner)], PolySide::kLeftOut, face.halfFace, owner != face.cells[0]});
     }
+    if (patch.sides.empty()) mesh.patches.pop_back();
   }
 }
 
@@ -149,8 +153,19 @@ void CaseFiles::addZones(const RankComplex& complex, PolyMesh& mesh) const {
   });
 }
 
-void CaseFiles::write(RankComplex complex, const WriteOptions& options) {
+/// As writePolyMesh() chooses them of merged cells.
+void CaseFiles::chooseRegions(const RankComplex& complex, WriteOptions& options) const {
+  std::vector<uint8_t> atSides;
+  ranks_.together([&] { atSides = detail::regionsAtSides(complex.cutMesh.regionCount, complex.cells); });
+  ranks_.comm().uniteFlags(atSides);
+  if (detail::countLeftOut(atSides) == 0) return;
+  ranks_.inFirst([&] { noteLeftOut(case_, atSides); });
+  options.regions = std::move(atSides);
+}
+
+void CaseFiles::write(RankComplex complex, WriteOptions options) {
   const bool areMerged = ranks_.comm().reduce(int(isMerged(complex.cells)), MPI_MAX) != 0;  // some may have no cells
+  if (areMerged && options.regions.empty()) chooseRegions(complex, options);
   std::optional<detail::ComplexPolygons> polygons;
   PolyMesh mesh;
   std::optional<detail::PolyFiles> files;

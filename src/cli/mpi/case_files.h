@@ -19,13 +19,14 @@ class CaseFiles {
   ~CaseFiles();
   CaseFiles(const CaseFiles&) = delete;
 
-  /// Writes the cells of this process, of mergedComplex() with a ring of ghosts; regions and untouched of the options are not read.
+  /// Writes the cells of this process, of mergedComplex() with a ring of ghosts; untouched of the options is not read.
   /// Collective. Throws Stopped, and RankError.
-  void write(RankComplex complex, const WriteOptions& options);
+  void write(RankComplex complex, WriteOptions options);
 
  private:
   std::string folderOf(int rank) const;
   void refuseOthers() const;
+  void chooseRegions(const RankComplex& complex, WriteOptions& options) const;
   void addSeams(const RankComplex& complex, detail::PolyMesh& mesh) const;
   void addZones(const RankComplex& complex, detail::PolyMesh& mesh) const;
 

@@ -24,7 +24,7 @@ class Numberer {
 
   CaseNumbers run() {
     CaseNumbers numbers;
-    numbers.cells = numbered(complex_.cellIds, [&](size_t c) { return mesh_.cellNumbers[c] != PolySide::kLeftOut; });
+    numbers.cells = numbered(complex_.cellIds, [&](size_t c) { return isWritten(int32_t(c)); });
     numbers.points = numbered(complex_.vertexIds, [&](size_t v) { return mesh_.pointNumbers[v] != PolyMesh::kUnused; });
     comm_.together(kNoun, [&] {
       first_.assign(2 * cells_.faceCount(), 0);
@@ -41,6 +41,8 @@ class Numberer {
   static constexpr const char* kNoun = "writing";
 
   bool isOwn(int32_t cell) const { return complex_.cellRanks[size_t(cell)] == comm_.rank(); }
+
+  bool isWritten(int32_t cell) const { return mesh_.cellNumbers[size_t(cell)] != PolySide::kLeftOut; }
 
   uint64_t polygonsOf(size_t face) const {
     uint64_t count = 0;
@@ -64,7 +66,7 @@ class Numberer {
   void sortInner() {
     for (uint32_t f = 0; f < cells_.faceCount(); ++f) {
       const int32_t a = cells_.faceCells[2 * size_t(f)], b = cells_.faceCells[2 * size_t(f) + 1];
-      if (cells_.faceTag[f] == FaceTag::inner && a >= 0 && b >= 0 && isOwn(std::min(a, b)))
+      if (cells_.faceTag[f] == FaceTag::inner && a >= 0 && b >= 0 && isOwn(std::min(a, b)) && isWritten(std::min(a, b)))
         inner_.push_back({std::min(a, b), std::max(a, b), f});
     }
     detail::sortItems(inner_, detail::isUpperBefore);

@@ -205,6 +205,7 @@ class Run {
     static_cast<RunOptions&>(options) = writingOptions();
     options.simpleCells = arguments_.simpleCells;
     options.groups = &input_.groups;
+    if (arguments_.only.all) ranks_.together([&] { options.regions.assign(cut_->common().mesh.regionCount, 1); });
     CaseFiles files(ranks_, output);  // refuses before there are cells
     makeCells(piece);
     const bool isLast = --cellOutputs_ == 0;

@@ -43,9 +43,9 @@ struct WriteOptions : RunOptions {
   /// Whether faces are left out that have the same cell at both sides, where a sheet ends in it, since VTK's filters and some of OpenFOAM's
   /// solvers fail on these (.vtu of cells, polyMesh).
   bool simpleCells = false;
-  /// Per region of the cut-mesh 1 if it is written, else 0; empty for all. Of cells: those of the region. Of the surface: all that bounds
-  /// the region, oriented out of it, while without regions each face is written once, under the region that an outward oriented surface
-  /// encloses.
+  /// Per region of the cut-mesh 1 if it is written, else 0; empty for all, but see writePolyMesh(). Of cells: those of the region. Of the
+  /// surface: all that bounds the region, oriented out of it, while without regions each face is written once, under the region that an
+  /// outward oriented surface encloses.
   std::vector<uint8_t> regions;
   /// Groups of the input's triangles, for those files that have them; none if null. A face that several triangles contain is in the group
   /// of its faceTriangle.
@@ -147,6 +147,8 @@ void writeMesh(const std::string& path, const MeshView& mesh, const RunOptions& 
 /// (2^-48 of the largest coordinate) are collapsed, with their vertices put into the edges that they lie on; walls in a plane with the
 /// centroid of a cell beside them, as of a flat sheet that ends in the middle of a cell, are moved off it by 2^-44; cells that have walls
 /// alone around them are left out; and faces of the grid that their own centre does not see as a whole, or no vertex does, are divided.
+/// Without `regions`, those that no side of the grid bounds are left out, if there are others: where a pressure is held on a side, nothing
+/// holds it in these, and solvers divide by zero.
 void writePolyMesh(const std::string& folder, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options = {});
 /// Takes the bytes of the files of a folder, piece after piece and file after file, with the name of the file. What it throws passes
 /// through.

@@ -134,6 +134,7 @@ TEST_CASE("Decomposed cases have the merged cells and united walls of one proces
                          {"--cells", "5", "--margin", "0", "--merge", "0.2"},
                          {"--cells", "6", "--margin", "1", "--coarsen", "2", "--merge", "0.2", "--unite-walls", "30"},
                          {"--cells", "7", "--margin", "0.1", "--merge", "0.5", "--coarsen", "9,0", "--simple-cells"},
+                         {"--cells", "7", "--margin", "0.1", "--merge", "0.2", "--only", "all"},
                          {"--cells", "8", "--margin", "0", "--unite-walls", "60"}};
   for (const Names& options : grids) compareCases(meshFile(folder, mesh), options, {1, 2, 3, 4});
 }

@@ -169,7 +169,8 @@ export interface Calls {
    * wall), which has both sides of the input's triangles, or with groups a wall for each of them, and `inner` where only one of two
    * neighbours is written. Of merged cells, faces that are only as wide as rounding makes them are collapsed, walls in a plane with the
    * centroid of a cell beside them are moved off it by little more than that, cells that have walls alone around them are left out, and
-   * faces of the grid that their own centre does not see as a whole, or no vertex does, are divided.
+   * faces of the grid that their own centre does not see as a whole, or no vertex does, are divided. Without `options.regions`, those that
+   * no side of the grid bounds are left out, if there are others: solvers stop where nothing holds the pressure.
    * Errors as in writeCells().
    */
   writePolyMesh(cutMesh: CutMeshArrays, cells: CellComplex, options?: WritePolyMeshOptions): PolyMeshFiles;
