@@ -132,7 +132,6 @@ void CaseFiles::addSeams(const RankComplex& complex, PolyMesh& mesh) const {
       if (mesh.cellNumbers[size_t(owner)] == PolySide::kLeftOut) continue;  // and so is what is beyond, of the same region
       patch.sides.push_back({mesh.cellNumbers[size_t(owner)], PolySide::kLeftOut, face.halfFace, owner != face.cells[0]});
     }
-    if (patch.sides.empty()) mesh.patches.pop_back();
   }
 }
 
