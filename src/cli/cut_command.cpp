@@ -70,7 +70,7 @@ class Writer {
       if (isFolder) {
         const DeferInterrupts defer;
         writePolyMesh(output.path, cutMesh, *complex, options);
-        if (mergeFraction(arguments_) > 0 && options.regions.empty())
+        if (detail::isMerged(*complex) && options.regions.empty())
           noteLeftOut(output.path, detail::regionsAtSides(cutMesh.regionCount, *complex));
         return;
       }

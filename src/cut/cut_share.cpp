@@ -80,15 +80,11 @@ struct CutShare::Data {
 
   void takeShare(TakeExcerpt* takeExcerpt) {
     const Input& input = state->surface.input;
-    std::vector<uint64_t> work;
-    if (takeExcerpt) {
-      work = workOfLayers(input);
-    } else {
-      constexpr size_t kEnough = 1 << 14;  // triangles that show where the work is: workers share cuts of some 100 ms, where each counts
-      work = workOfLayers(input, uint32_t(input.mesh->triangles.size() / kEnough + 1));
-      leaveToFirst(work, shareOf.count);
-    }
-    layers.emplace(state->surface.input, work, shareOf.count);
+    constexpr size_t kEnough = 1 << 14;  // triangles that show where the work is: workers share cuts of some 100 ms, where each counts
+    const size_t every = takeExcerpt ? 1 : input.mesh->triangles.size() / kEnough + 1;
+    std::vector<uint64_t> work = workOfLayers(input, uint32_t(every));
+    if (!takeExcerpt) leaveToFirst(work, shareOf.count);
+    layers.emplace(input, work, shareOf.count);
     takeLayers();
     if (!takeExcerpt) return takeSurface(*state);
     excerpt = takeExcerpt(mesh->view(), *state);

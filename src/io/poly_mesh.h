@@ -70,6 +70,8 @@ struct PolyMesh {
 MANDOLINE_SHARED PolyMesh makePolyMesh(const CutMesh& cutMesh, const CellComplex& cells, const TriangleGroups* groups, bool simpleCells,
                                        FunctionRef<bool(size_t cell)> isWritten);
 
+inline bool isMerged(const CellComplex& cells) { return !cells.cellMemberOffsets.empty(); }
+
 /// Per region 1 if a cell of it is at a side of the grid, else 0.
 MANDOLINE_SHARED std::vector<uint8_t> regionsAtSides(uint32_t regionCount, const CellComplex& cells);
 

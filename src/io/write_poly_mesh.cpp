@@ -157,8 +157,7 @@ namespace {
 
 /// The options, with regions chosen of merged cells if none are.
 WriteOptions withRegions(const CutMesh& cutMesh, const CellComplex& cells, WriteOptions options) {
-  const bool isMerged = !cells.cellMemberOffsets.empty();
-  if (!isMerged || !options.regions.empty()) return options;
+  if (!detail::isMerged(cells) || !options.regions.empty()) return options;
   std::vector<uint8_t> atSides = detail::regionsAtSides(cutMesh.regionCount, cells);
   if (detail::countLeftOut(atSides) > 0) options.regions = std::move(atSides);
   return options;
@@ -169,7 +168,7 @@ WriteOptions withRegions(const CutMesh& cutMesh, const CellComplex& cells, Write
 void writePolyMesh(const FolderSink& sink, const CutMesh& cutMesh, const CellComplex& cells, const WriteOptions& options) {
   detail::Selection(cutMesh, options);  // checks them
   detail::runCall("writing", [&] {
-    const bool isMerged = !cells.cellMemberOffsets.empty();
+    const bool isMerged = detail::isMerged(cells);
     const TriangleGroups* const groups = detail::checkedGroups(options.groups, cutMesh.triangleCount);
     detail::ComplexPolygons polygons(cutMesh, cells);
     const WriteOptions chosen = withRegions(cutMesh, cells, options);

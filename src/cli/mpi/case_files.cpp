@@ -32,14 +32,12 @@ constexpr const char* kNames[] = {"points",
                                   "pointProcAddressing",
                                   "boundaryProcAddressing"};
 
-bool isMerged(const CellComplex& cells) { return !cells.cellMemberOffsets.empty(); }
-
 /// The process's own cells, without those that others have beside them.
 PolyMesh ownMesh(const RankComplex& complex, const detail::ComplexPolygons& polygons, const WriteOptions& options, int rank) {
   const TriangleGroups* const groups = detail::checkedGroups(options.groups, complex.cutMesh.triangleCount);
   PolyMesh mesh = detail::makePolyMesh(complex.cutMesh, complex.cells, groups, options.simpleCells, [&](size_t c) {
     return complex.cellRanks[c] == rank && options.hasRegion(complex.cells.cellRegion[c]) &&
-           !(isMerged(complex.cells) && detail::isEnclosedByWalls(complex.cells, polygons, c));
+           !(detail::isMerged(complex.cells) && detail::isEnclosedByWalls(complex.cells, polygons, c));
   });
   std::erase_if(mesh.patches,
                 [&](const PolyPatch& patch) { return &patch - mesh.patches.data() == ptrdiff_t(FaceTag::inner) && patch.name == "inner"; });
@@ -163,7 +161,7 @@ void CaseFiles::chooseRegions(const RankComplex& complex, WriteOptions& options)
 }
 
 void CaseFiles::write(RankComplex complex, WriteOptions options) {
-  const bool areMerged = ranks_.comm().reduce(int(isMerged(complex.cells)), MPI_MAX) != 0;  // some may have no cells
+  const bool areMerged = ranks_.comm().reduce(int(detail::isMerged(complex.cells)), MPI_MAX) != 0;  // some may have no cells
   if (areMerged && options.regions.empty()) chooseRegions(complex, options);
   std::optional<detail::ComplexPolygons> polygons;
   PolyMesh mesh;
